@@ -1,0 +1,31 @@
+// Axis-aligned boxes.
+#pragma once
+
+#include <limits>
+#include <pah/geometry/vec.hpp>
+
+namespace pah {
+
+// A closed box. Default-constructed it is empty (min > max) and grows by `extend`.
+struct Aabb {
+  Vec3 min{std::numeric_limits<float>::infinity()};
+  Vec3 max{-std::numeric_limits<float>::infinity()};
+
+  void extend(const Vec3& point) {
+    min = glm::min(min, point);
+    max = glm::max(max, point);
+  }
+  void extend(const Aabb& other) {
+    min = glm::min(min, other.min);
+    max = glm::max(max, other.max);
+  }
+  [[nodiscard]] bool empty() const { return min.x > max.x || min.y > max.y || min.z > max.z; }
+  // Componentwise size; meaningless for an empty box.
+  [[nodiscard]] Vec3 extent() const { return max - min; }
+  // Halved before adding, so that it is finite for every finite box.
+  [[nodiscard]] Vec3 center() const { return 0.5F * min + 0.5F * max; }
+
+  friend bool operator==(const Aabb&, const Aabb&) = default;
+};
+
+}  // namespace pah

@@ -1,0 +1,20 @@
+// The vector types of the project: GLM's, under short names.
+//
+// Right-handed, y up. World positions are double until a World recentres them (scene/world.hpp);
+// everything that a ray touches is float.
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+
+namespace pah {
+
+using Vec2 = glm::vec2;
+using Vec3 = glm::vec3;
+using DVec2 = glm::dvec2;
+using DVec3 = glm::dvec3;
+using DMat3 = glm::dmat3;
+using DMat4 = glm::dmat4;
+using UVec3 = glm::uvec3;
+
+}  // namespace pah

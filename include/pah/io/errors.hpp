@@ -1,0 +1,42 @@
+// Errors that a user can mend, with the place to mend.
+#pragma once
+
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace pah {
+
+// Where an error is: line and column count from 1; 0 means not known.
+struct Location {
+  std::string file;
+  int line = 0;
+  int column = 0;
+};
+
+struct LocatedError {
+  Location where;
+  std::string message;
+  std::string excerpt;  // the line of text, or empty
+};
+
+// "file:line:column: error: message", then the excerpt and a caret under the column.
+[[nodiscard]] std::string format_error(const LocatedError& error);
+
+// All errors of a scene file and of the files that it names.
+class SceneError : public std::runtime_error {
+ public:
+  explicit SceneError(std::vector<LocatedError> errors);
+  [[nodiscard]] const std::vector<LocatedError>& errors() const { return errors_; }
+
+ private:
+  std::vector<LocatedError> errors_;
+};
+
+// A file that cannot be read or written, for reasons outside the scene.
+class FileError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+}  // namespace pah

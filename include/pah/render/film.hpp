@@ -1,0 +1,75 @@
+// What a render accumulates: double-precision sums per pixel.
+#pragma once
+
+#include <cstdint>
+#include <pah/geometry/vec.hpp>
+#include <pah/scene/settings.hpp>
+#include <vector>
+
+namespace pah {
+
+// A linear picture, rows from the top.
+struct Image {
+  int width = 0;
+  int height = 0;
+  std::vector<Vec3> pixels;
+
+  [[nodiscard]] const Vec3& at(int x, int y) const {
+    return pixels[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
+                  static_cast<std::size_t>(x)];
+  }
+};
+
+// Each sample belongs to one pixel only (the filter is importance-sampled), so a pixel's mean is
+// its sum over its count, and tiles never share pixels.
+struct FilmPixel {
+  DVec3 sum{0};
+  DVec3 sum_of_squares{0};
+  DVec3 albedo{0};  // sums, at the first non-specular surface
+  DVec3 normal{0};
+  double depth = 0;  // sum of distances from the camera, over `hits`
+  std::uint32_t samples = 0;
+  std::uint32_t hits = 0;  // samples whose camera ray met a surface
+};
+
+struct Film {
+  PixelRect rect;  // the pixels held, in picture coordinates
+  std::vector<FilmPixel> pixels;
+
+  [[nodiscard]] FilmPixel& at(int x, int y) { return pixels[index(x, y)]; }
+  [[nodiscard]] const FilmPixel& at(int x, int y) const { return pixels[index(x, y)]; }
+
+ private:
+  [[nodiscard]] std::size_t index(int x, int y) const {
+    return static_cast<std::size_t>(y - rect.y0) * static_cast<std::size_t>(rect.width()) +
+           static_cast<std::size_t>(x - rect.x0);
+  }
+};
+
+// Means. A pixel without samples is black.
+[[nodiscard]] Image radiance_of(const Film& film);
+[[nodiscard]] Image albedo_of(const Film& film);
+[[nodiscard]] Image normal_of(const Film& film);
+// Distances in all three channels; 0 where nothing was hit.
+[[nodiscard]] Image depth_of(const Film& film);
+// The variance of the mean, per channel, from the samples' spread.
+[[nodiscard]] Image variance_of(const Film& film);
+
+// The error that the image's own variance predicts.
+struct ErrorEstimate {
+  double mse = 0;
+  double relmse = 0;         // mean over pixels and channels of (I - R)^2 / (R^2 + 0.01)
+  double low = 0, high = 0;  // 95 % confidence interval of relmse
+};
+[[nodiscard]] ErrorEstimate estimate_error(const Film& film);
+
+// Differences between two pictures of one size; `b` is the reference.
+struct ImageDifference {
+  double mse = 0;
+  double relmse = 0;
+  double max = 0;  // largest absolute difference of a channel
+};
+// Throws std::invalid_argument if the sizes differ.
+[[nodiscard]] ImageDifference compare_images(const Image& a, const Image& b);
+
+}  // namespace pah

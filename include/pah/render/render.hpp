@@ -1,0 +1,51 @@
+// World and accelerator in, film out.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <functional>
+#include <pah/accel/accelerator.hpp>
+#include <pah/render/film.hpp>
+#include <pah/scene/world.hpp>
+
+namespace pah {
+
+enum class RayKind { camera, shadow, bounce };
+inline constexpr std::array<const char*, 3> ray_kind_names{"camera", "shadow", "bounce"};
+
+struct RenderCounts {
+  std::array<std::uint64_t, 3> rays{};         // by RayKind
+  std::array<TraversalCounts, 3> traversal{};  // zero unless asked for
+  std::uint64_t nan_samples = 0;               // samples dropped: not finite, or negative
+};
+
+struct Progress {
+  double fraction = 0;  // of all samples, in [0, 1]
+  double seconds = 0;   // since the render began
+  std::uint64_t rays = 0;
+  int samples_finished = 0;  // per pixel, by every pixel
+};
+
+struct RenderOptions {
+  int threads = 0;        // 0: all
+  double time_limit = 0;  // seconds; 0: none. Whole passes only, at least one
+  bool count_traversal = false;
+  const std::atomic<bool>* stop = nullptr;           // set it to end early with what there is
+  std::function<void(const Progress&)> on_progress;  // called from one thread at a time
+};
+
+struct RenderResult {
+  Film film;
+  RenderCounts counts;
+  double seconds = 0;
+  int samples = 0;        // per pixel, finished by every pixel
+  bool complete = false;  // false if stopped or out of time
+};
+
+// Path-traces the world. The same world, film, settings and accelerator answers give the same film
+// to the last bit, whatever the number of threads.
+[[nodiscard]] RenderResult render(const World& world, const Accelerator& accelerator,
+                                  const FilmSettings& film, const RenderSettings& settings,
+                                  const RenderOptions& options = {});
+
+}  // namespace pah

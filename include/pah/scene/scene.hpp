@@ -1,0 +1,27 @@
+// A scene: values that refer to one another by index. io/load_scene.hpp makes one from a file;
+// programs may as well fill one in themselves and hand it to `make_world`.
+#pragma once
+
+#include <pah/scene/camera.hpp>
+#include <pah/scene/light.hpp>
+#include <pah/scene/material.hpp>
+#include <pah/scene/mesh.hpp>
+#include <pah/scene/settings.hpp>
+#include <pah/scene/texture.hpp>
+
+namespace pah {
+
+struct Scene {
+  Camera camera = PerspectiveCamera{};
+  FilmSettings film;
+  RenderSettings render;
+  InfluenceSettings influence_areas;
+  AccelerationSettings acceleration;
+  std::vector<Texture> textures;
+  std::vector<Material> materials;
+  std::vector<Mesh> meshes;
+  std::vector<Instance> instances;
+  std::vector<Light> lights;
+};
+
+}  // namespace pah

@@ -1,0 +1,46 @@
+// A scene made ready for rays: all triangles in one float array about the scene's centre.
+#pragma once
+
+#include <pah/geometry/triangles.hpp>
+#include <pah/scene/scene.hpp>
+
+namespace pah {
+
+// What all triangles of one instance share.
+struct Surface {
+  MaterialId material = 0;
+  LightId light = no_light;
+  std::uint32_t first_triangle = 0;
+  std::uint32_t triangle_count = 0;
+  bool has_normals = false;
+  bool has_uvs = false;
+};
+
+struct World {
+  // Scene coordinates are origin + world coordinates. It is subtracted in double, before rounding
+  // to float, so a scene far from its origin loses nothing.
+  DVec3 origin{0};
+  std::vector<Vec3> positions;
+  std::vector<Vec3> normals;  // per position; empty if no surface has normals
+  std::vector<Vec2> uvs;      // per position; empty if no surface has texture coordinates
+  std::vector<UVec3> indices;
+  std::vector<std::uint32_t> surface_of_triangle;
+  std::vector<Surface> surfaces;
+  Aabb bounds;  // of all triangles; empty if there are none
+
+  // As in the scene, but relative to `origin`.
+  Camera camera;
+  std::vector<Light> lights;
+  std::vector<Material> materials;
+  std::vector<Texture> textures;
+
+  [[nodiscard]] Triangles triangles() const { return {positions, indices}; }
+  [[nodiscard]] std::uint64_t bytes() const;
+};
+
+// Flattens the scene's instances. Instances that mirror (determinant < 0) have their triangles
+// turned over, so that normals keep pointing out. Throws std::length_error beyond 2^32 - 2
+// triangles or positions.
+[[nodiscard]] World make_world(const Scene& scene);
+
+}  // namespace pah
