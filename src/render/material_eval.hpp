@@ -1,0 +1,24 @@
+// Materials and textures to what scatters at one point.
+#pragma once
+
+#include <pah/scene/material.hpp>
+
+#include "render/bsdf.hpp"
+#include "scene/texture_store.hpp"
+
+namespace pah {
+
+// `footprint` is the width of the filter in texture coordinates, >= 0; 0 takes the finest level.
+// Values from textures are clamped to the range that the model allows.
+[[nodiscard]] Bsdf resolve_material(const Material& material, const TextureStore& textures, Vec2 uv,
+                                    float footprint);
+
+// The share of light that is stopped, in [0, 1]; 1 - opacity passes straight through.
+[[nodiscard]] float opacity(const Material& material, const TextureStore& textures, Vec2 uv,
+                            float footprint);
+
+// The normal map's unit normal in tangent space (x along dp/du), z > 0; +z if there is no map.
+[[nodiscard]] Vec3 mapped_normal(const Material& material, const TextureStore& textures, Vec2 uv,
+                                 float footprint);
+
+}  // namespace pah

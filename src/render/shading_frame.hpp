@@ -1,0 +1,25 @@
+// Orthonormal bases about a normal.
+#pragma once
+
+#include <pah/geometry/vec.hpp>
+
+namespace pah {
+
+// Right-handed; z is the normal. Local directions are what BSDFs speak.
+struct ShadingFrame {
+  Vec3 x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1};
+
+  [[nodiscard]] Vec3 local_from_world(const Vec3& w) const {
+    return {glm::dot(x, w), glm::dot(y, w), glm::dot(z, w)};
+  }
+  [[nodiscard]] Vec3 world_from_local(const Vec3& w) const { return x * w.x + y * w.y + z * w.z; }
+};
+
+// A basis about a unit normal, continuous but at z = 0 (Duff et al., JCGT 6(1), 2017).
+[[nodiscard]] ShadingFrame make_frame(const Vec3& normal);
+
+// The basis whose x is as near as possible to `tangent`, of any length. Where the two are parallel
+// or the tangent is zero or not finite: as above.
+[[nodiscard]] ShadingFrame make_frame(const Vec3& normal, const Vec3& tangent);
+
+}  // namespace pah
