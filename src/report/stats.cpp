@@ -1,0 +1,82 @@
+#include "report/stats.hpp"
+
+#include <sys/resource.h>
+
+#include <nlohmann/json.hpp>
+
+namespace pah {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+template <typename Value>
+Json by_ray_kind(const Value& value) {
+  Json json = Json::object();
+  for (std::size_t kind = 0; kind < ray_kind_names.size(); ++kind)
+    json[ray_kind_names[kind]] = value(kind);
+  return json;
+}
+
+Json traversal_json(const RenderCounts& counts) {
+  const auto per_ray = [&](std::uint64_t TraversalCounts::*member) {
+    return by_ray_kind([&, member](std::size_t kind) {
+      const auto rays = counts.rays[kind];
+      return rays == 0
+                 ? 0.0
+                 : static_cast<double>(counts.traversal[kind].*member) / static_cast<double>(rays);
+    });
+  };
+  return {{"nodes_per_ray", per_ray(&TraversalCounts::nodes)},
+          {"triangles_per_ray", per_ray(&TraversalCounts::triangles)}};
+}
+
+}  // namespace
+
+std::uint64_t peak_memory_bytes() {
+  rusage usage{};
+  if (::getrusage(RUSAGE_SELF, &usage) != 0) return 0;
+#ifdef __APPLE__
+  return static_cast<std::uint64_t>(usage.ru_maxrss);
+#else
+  return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
+#endif
+}
+
+std::string stats_json(const RenderReport& report) {
+  const AcceleratorMemory& structures = report.accelerator_bytes;
+  const Json json{
+      {"version", report.version},
+      {"scene", report.scene},
+      {"width", report.width},
+      {"height", report.height},
+      {"samples", report.samples},
+      {"threads", report.threads},
+      {"seed", report.seed},
+      {"accelerator", report.accelerator},
+      {"triangles", report.triangles},
+      {"seconds",
+       {{"load", report.seconds.load},
+        {"build", report.seconds.build},
+        {"render", report.seconds.render},
+        {"total", report.seconds.total}}},
+      {"rays", by_ray_kind([&](std::size_t kind) { return report.counts.rays[kind]; })},
+      {"traversal", traversal_json(report.counts)},
+      {"influence_areas", Json::array()},
+      {"memory_bytes",
+       {{"scene", report.scene_bytes},
+        {"global_bvh", structures.global_bvh},
+        {"local_bvhs", structures.local_bvhs},
+        {"top_level", structures.top_level},
+        {"film", report.film_bytes}}},
+      {"peak_memory_bytes", peak_memory_bytes()},
+      {"error",
+       {{"mse", report.error.mse},
+        {"relmse", report.error.relmse},
+        {"confidence95", Json::array({report.error.low, report.error.high})}}},
+      {"nan_samples", report.counts.nan_samples},
+  };
+  // A scene's name may hold any bytes.
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace pah

@@ -1,0 +1,14 @@
+// Who may include whom: the order of modules, and where third parties may be seen.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace pah::testing {
+
+// One line for every #include below root/include/pah and root/src that breaks a rule, sorted:
+// "src/bvh/sah.cpp:3: bvh must not include accel".
+[[nodiscard]] std::vector<std::string> broken_include_rules(const std::filesystem::path& root);
+
+}  // namespace pah::testing

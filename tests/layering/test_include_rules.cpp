@@ -1,0 +1,99 @@
+#include <unistd.h>
+
+#include <fstream>
+#include <map>
+
+#include "catch.hpp"
+#include "include_rules.hpp"
+
+namespace fs = std::filesystem;
+using pah::testing::broken_include_rules;
+
+namespace {
+
+// A made-up tree of files, removed in the end.
+class Tree {
+ public:
+  explicit Tree(const std::map<std::string, std::string>& files)
+      : root_(fs::temp_directory_path() / ("pah-layering-" + std::to_string(::getpid()))) {
+    for (const auto& [name, text] : files) {
+      fs::create_directories((root_ / name).parent_path());
+      std::ofstream(root_ / name) << text;
+    }
+  }
+  ~Tree() { fs::remove_all(root_); }
+  Tree(const Tree&) = delete;
+  Tree& operator=(const Tree&) = delete;
+
+  [[nodiscard]] const fs::path& root() const { return root_; }
+
+ private:
+  fs::path root_;
+};
+
+std::vector<std::string> faults_of(const std::string& file, const std::string& text) {
+  const Tree tree(std::map<std::string, std::string>{{file, text}});
+  return broken_include_rules(tree.root());
+}
+
+}  // namespace
+
+TEST_CASE("every module includes only what stands to its left") {
+  const fs::path root = PAH_SOURCE_DIR;
+  REQUIRE(fs::exists(root / "src" / "cli" / "main.cpp"));
+  std::string all;
+  for (const std::string& fault : broken_include_rules(root)) all += fault + "\n";
+  INFO(all);
+  CHECK(all.empty());
+}
+
+TEST_CASE("allowed includes pass") {
+  const Tree tree({
+      {"include/pah/bvh/bvh.hpp", "#include <pah/geometry/aabb.hpp>\n#include <glm/vec3.hpp>\n"},
+      {"src/bvh/bvh.cpp",
+       "#include \"bvh/bvh.hpp\"\n#include \"near.hpp\"\n#include <tbb/parallel_for.h>\n"
+       "// #include <CGAL/box.h> in a comment\n"},
+      {"src/scene/texture_store.cpp", "#include <OpenImageIO/texture.h>\n"},
+      {"src/io/yaml.cpp", "#include <yaml-cpp/yaml.h>\n#include <pah/render/film.hpp>\n"},
+      {"src/cli/main.cpp",
+       "#include <CLI/CLI.hpp>\n#include <unistd.h>\n#include \"report/stats.hpp\"\n"},
+  });
+  CHECK(broken_include_rules(tree.root()).empty());
+}
+
+TEST_CASE("planted faults are found, with their place") {
+  using Faults = std::vector<std::string>;
+  SECTION("a module to the right") {
+    CHECK(faults_of("src/bvh/a.cpp", "// why\n\n  #  include <pah/accel/accelerator.hpp>\n") ==
+          Faults{"src/bvh/a.cpp:3: bvh must not include accel"});
+    CHECK(faults_of("include/pah/render/a.hpp", "#include <pah/io/image_file.hpp>\n") ==
+          Faults{"include/pah/render/a.hpp:1: render must not include io"});
+    CHECK(faults_of("src/io/a.cpp", "#include \"report/stats.hpp\"\n").size() == 1);
+  }
+  SECTION("a neighbour between the same two bars") {
+    CHECK(faults_of("src/accel/a.cpp", "#include <pah/scene/scene.hpp>\n") ==
+          Faults{"src/accel/a.cpp:1: accel must not include scene"});
+    CHECK(faults_of("src/influence/a.cpp", "#include \"bvh/bvh.hpp\"\n").size() == 1);
+  }
+  SECTION("a private header in a public one") {
+    CHECK(faults_of("include/pah/io/a.hpp", "#include \"io/atomic.hpp\"\n").size() == 1);
+  }
+  SECTION("a third party out of its place") {
+    CHECK(faults_of("src/scene/a.cpp", "#include <OpenImageIO/imageio.h>\n") ==
+          Faults{"src/scene/a.cpp:1: OpenImageIO/imageio.h must not be included here"});
+    CHECK(faults_of("src/report/a.cpp", "#include <yaml-cpp/yaml.h>\n").size() == 1);
+    CHECK(faults_of("src/render/a.cpp", "#include <assimp/scene.h>\n").size() == 1);
+    CHECK(faults_of("src/render/a.cpp", "#include <fmt/format.h>\n").size() == 1);
+    CHECK(faults_of("src/report/a.cpp", "#include <CLI/CLI.hpp>\n").size() == 1);
+    CHECK(faults_of("include/pah/scene/a.hpp", "#include <tbb/task_arena.h>\n").size() == 1);
+    CHECK(faults_of("src/geometry/a.cpp", "#include <unistd.h>\n").size() == 1);
+  }
+  SECTION("CGAL, and whatever nobody has named") {
+    CHECK(faults_of("src/geometry/a.cpp", "#include <CGAL/Exact_kernel.h>\n").size() == 1);
+    CHECK(faults_of("src/io/a.cpp", "#include <boost/any.hpp>\n").size() == 1);
+  }
+  SECTION("a folder or header that belongs to no module") {
+    CHECK(faults_of("src/util/a.cpp", "#include <vector>\n").size() == 1);
+    CHECK(faults_of("src/io/a.cpp", "#include \"util/a.hpp\"\n").size() == 1);
+  }
+}
