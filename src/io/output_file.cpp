@@ -1,0 +1,84 @@
+#include "io/output_file.hpp"
+
+#include <unistd.h>
+
+#include <cerrno>
+#include <fstream>
+#include <string>
+#include <system_error>
+
+namespace pah {
+namespace {
+
+namespace fs = std::filesystem;
+
+[[noreturn]] void fail(const fs::path& file, const std::string& why) {
+  throw FileError("cannot write " + file.string() + ": " + why);
+}
+
+std::string last_error() { return std::generic_category().message(errno); }
+
+// Where a link leads: renaming is to replace the file, not the link to it.
+fs::path resolved(const fs::path& file) {
+  std::error_code error;
+  fs::path target = fs::weakly_canonical(file, error);
+  return error ? file : target;
+}
+
+bool is_device(const fs::path& file) {
+  std::error_code error;
+  const fs::file_status status = fs::status(file, error);
+  return fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status);
+}
+
+void write_all(const fs::path& file, const fs::path& named, std::string_view text) {
+  errno = 0;
+  std::ofstream stream(file, std::ios::binary);
+  stream.write(text.data(), static_cast<std::streamsize>(text.size()));
+  stream.close();
+  if (stream) return;
+  const std::string why = last_error();
+  if (file != named) {
+    std::error_code ignored;
+    fs::remove(file, ignored);
+  }
+  fail(named, why);
+}
+
+}  // namespace
+
+fs::path temporary_beside(const fs::path& file) {
+  const fs::path target = resolved(file);
+  return target.parent_path() / ("." + target.stem().string() + ".part" +
+                                 std::to_string(::getpid()) + target.extension().string());
+}
+
+void check_can_create(const fs::path& file) {
+  if (file.filename().empty()) fail(file, "it names no file");
+  if (is_device(file)) return;
+  std::error_code error;
+  if (fs::is_directory(file, error)) fail(file, "it is a folder");
+  const fs::path folder = resolved(file).parent_path();
+  if (!fs::is_directory(folder, error)) fail(file, "there is no folder " + folder.string());
+  const fs::path probe = temporary_beside(file);
+  write_all(probe, file, {});
+  fs::remove(probe, error);
+}
+
+void put_in_place(const fs::path& temporary, const fs::path& file) {
+  std::error_code error;
+  fs::rename(temporary, resolved(file), error);
+  if (!error) return;
+  std::error_code ignored;
+  fs::remove(temporary, ignored);
+  fail(file, error.message());
+}
+
+void write_text_file(const fs::path& file, std::string_view text) {
+  if (is_device(file)) return write_all(file, file, text);
+  const fs::path temporary = temporary_beside(file);
+  write_all(temporary, file, text);
+  put_in_place(temporary, file);
+}
+
+}  // namespace pah
