@@ -1,0 +1,44 @@
+// How a BVH is built, and the cost model that builder, estimates and counters share.
+#pragma once
+
+#include <cstdint>
+#include <pah/geometry/aabb.hpp>
+
+namespace pah {
+
+// Expected cost of the two tests of a traversal, in units of the box test.
+inline constexpr float box_cost = 1.0F;
+inline constexpr float triangle_cost = 1.2F;
+
+// Bit i set: axis i may be split.
+using AxisMask = std::uint32_t;
+inline constexpr AxisMask all_axes = 0b111;
+
+enum class AxisChoice : std::uint8_t {
+  best,     // the cheapest split of all three axes
+  longest,  // of the axis along which the node is longest
+};
+
+// What a builder asks of a heuristic: the measure of a box, proportional to the chance that a ray
+// hits it (only ratios matter), and the axes that may be split.
+struct SurfaceArea {
+  AxisChoice choice = AxisChoice::best;
+
+  // Half the surface area.
+  [[nodiscard]] float area(const Aabb& box) const {
+    const Vec3 size = box.extent();
+    return size.x * size.y + size.y * size.z + size.z * size.x;
+  }
+  [[nodiscard]] AxisMask axes(const Aabb& box) const {
+    if (choice == AxisChoice::best) return all_axes;
+    const Vec3 size = box.extent();
+    return size.x >= size.y && size.x >= size.z ? 0b001 : size.y >= size.z ? 0b010 : 0b100;
+  }
+};
+
+struct BuildConfig {
+  std::uint32_t bins = 16;     // per axis, 2 to 64: candidate splits are the borders between them
+  std::uint32_t max_leaf = 4;  // triangles, at least 1: larger leaves are split whatever the cost
+};
+
+}  // namespace pah

@@ -1,0 +1,100 @@
+#include <array>
+
+#include "accel/batch.hpp"
+#include "geometry/ray_triangle.hpp"
+
+namespace pah {
+
+namespace {
+
+// Boxes of eight triangles, laid out for the compiler to test side by side.
+struct BoxGroup {
+  static constexpr std::size_t size = 8;
+  std::array<std::array<std::array<float, size>, 2>, 3> planes;  // [axis][min, max][triangle]
+};
+
+class BruteForce final : public Accelerator {
+ public:
+  explicit BruteForce(const Triangles& triangles) : bounds_(bounds_of(triangles)) {
+    triangles_.reserve(triangles.size());
+    for (std::size_t i = 0; i < triangles.size(); ++i) triangles_.push_back(triangles[i]);
+
+    boxes_.resize((triangles.size() + BoxGroup::size - 1) / BoxGroup::size);
+    for (std::size_t i = 0; i < boxes_.size() * BoxGroup::size; ++i) {
+      const Aabb box = i < triangles.size() ? triangles[i].bounds() : Aabb{};
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        auto& planes = boxes_[i / BoxGroup::size].planes[axis];
+        planes[0][i % BoxGroup::size] = box.min[static_cast<int>(axis)];
+        planes[1][i % BoxGroup::size] = box.max[static_cast<int>(axis)];
+      }
+    }
+  }
+
+  void closest_hit(std::span<const Ray> rays, std::span<Hit> hits,
+                   TraversalCounts* counts) const override {
+    with_counter(counts, [&](auto& counter) {
+      closest_hits(rays, hits, bounds_, [&](const PreparedRay& ray, Hit& best) {
+        counter.triangles(triangles_.size());
+        visit(ray, [&](std::size_t i) {
+          update_nearest(ray, triangles_[i], static_cast<std::uint32_t>(i), best);
+          return false;
+        });
+      });
+    });
+  }
+
+  void occluded(std::span<const Ray> rays, std::span<std::uint8_t> results,
+                TraversalCounts* counts) const override {
+    with_counter(counts, [&](auto& counter) {
+      for (std::size_t k = 0; k < rays.size(); ++k) {
+        const PreparedRay ray = prepare(rays[k], bounds_);
+        results[k] = 0;
+        visit(ray, [&](std::size_t i) {
+          counter.triangles(1);
+          TriangleHit hit;
+          if (intersect_triangle(ray, triangles_[i], ray.t_max, hit)) results[k] = 1;
+          return results[k] != 0;
+        });
+      }
+    });
+  }
+
+  [[nodiscard]] AcceleratorMemory memory() const override { return {}; }
+
+ private:
+  // Calls `test(i)` for every triangle whose own box the ray meets (part 2 of the shared rule,
+  // taken first because it is cheap for eight at a time), until it returns true.
+  template <typename Test>
+  void visit(const PreparedRay& ray, const Test& test) const {
+    for (std::size_t group = 0; group < boxes_.size(); ++group) {
+      std::array<float, BoxGroup::size> near{};
+      std::array<float, BoxGroup::size> far;
+      far.fill(ray.t_max);
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        const int k = static_cast<int>(axis);
+        const auto& planes = boxes_[group].planes[axis];
+        const auto& near_plane = planes[ray.negative[axis]];
+        const auto& far_plane = planes[1U - ray.negative[axis]];
+        for (std::size_t i = 0; i < BoxGroup::size; ++i) {
+          near[i] = std::max(near[i], (near_plane[i] - ray.near_origin[k]) * ray.inverse[k]);
+          far[i] = std::min(far[i], (far_plane[i] - ray.far_origin[k]) * ray.inverse[k]);
+        }
+      }
+      for (std::size_t i = 0; i < BoxGroup::size; ++i) {
+        if (near[i] <= far[i] && test(group * BoxGroup::size + i)) return;
+      }
+    }
+  }
+
+  std::vector<Triangle> triangles_;
+  std::vector<BoxGroup> boxes_;
+  Aabb bounds_;
+};
+
+}  // namespace
+
+std::unique_ptr<Accelerator> make_brute_force(Triangles triangles) {
+  return std::make_unique<BruteForce>(triangles);
+}
+
+}  // namespace pah

@@ -1,0 +1,109 @@
+// A ray made ready for box and triangle tests, and the slab test of boxes.
+//
+// All boxes of a scene are tested by one formula: per axis t_near = (near plane - near_origin) *
+// inverse and t_far likewise. Each operation rounds monotonically, so that a box inside another has
+// an interval inside the other's TO THE LAST BIT. That is what makes culling exact; see
+// ray_triangle.hpp for how the two tests become one rule.
+//
+// The origin is padded (near planes are seen from further along the direction, far planes from
+// further back), which widens every box by the same amount at no cost per box. With M the largest
+// distance along an axis from the origin to a corner of the scene, the padding must cover
+//   6 u M: sheared vertices of the triangle test (u = unit roundoff; ray_triangle.hpp), and
+//   3 u M: the slab formula itself: difference, reciprocal, product. Ize ("Robust BVH Ray
+//          Traversal", JCGT 2013) widens t_far for this; padding the planes covers both ends.
+// rounding_bound(10) leaves one u for terms of second order. Adding the padding to the origin
+// rounds, too: 2 u |origin| more make up for that.
+//
+// A zero of the direction would give 0 * infinity; its inverse is the largest float instead, with
+// the zero's sign. Either the origin is outside the padded slab (t_near is then huge: a miss) or it
+// is inside by the last u M of the padding (t_far is huge). So no NaN can arise from finite input.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <pah/geometry/aabb.hpp>
+#include <pah/geometry/ray.hpp>
+
+#include "geometry/rounding.hpp"
+
+namespace pah {
+
+struct PreparedRay {
+  // The slab test.
+  Vec3 near_origin{0};
+  Vec3 far_origin{0};
+  Vec3 inverse{0};                         // 1 / direction, finite
+  std::array<std::uint8_t, 3> negative{};  // 1 where the direction is below zero (or -0)
+
+  // The triangle test: the axis of the largest component becomes z, a shear makes the ray z.
+  std::array<std::uint8_t, 3> axes{0, 1, 2};
+  Vec3 origin{0};
+  float shear_x = 0;
+  float shear_y = 0;
+  float scale_z = 0;
+
+  float t_max = -1;  // no interval reaches below zero: such a ray hits nothing
+};
+
+// The directions that can be told from zero and infinity without losing digits. Others (and NaN)
+// hit nothing.
+inline constexpr float min_direction = 0x1p-100F;
+inline constexpr float max_direction = 0x1p100F;
+
+// `scene` is the box of ALL triangles of the scene, whatever subset of them is to be tested.
+[[nodiscard]] inline PreparedRay prepare(const Ray& ray, const Aabb& scene) {
+  PreparedRay prepared;
+  const Vec3 size = glm::abs(ray.direction);
+  const float largest = std::max(size.x, std::max(size.y, size.z));
+  const bool usable = size.x <= max_direction && size.y <= max_direction &&
+                      size.z <= max_direction && largest >= min_direction &&
+                      std::isfinite(ray.origin.x) && std::isfinite(ray.origin.y) &&
+                      std::isfinite(ray.origin.z) && ray.t_max > 0;
+  if (!usable) return prepared;
+
+  const Vec3 reach = glm::max(scene.max - ray.origin, ray.origin - scene.min);
+  const float padding = rounding_bound(10) * std::max(reach.x, std::max(reach.y, reach.z));
+  for (int i = 0; i < 3; ++i) {
+    const float huge = std::numeric_limits<float>::max();
+    const float inverse = std::clamp(1.0F / ray.direction[i], -huge, huge);
+    const float pad = std::copysign(padding + 2 * unit_roundoff * std::abs(ray.origin[i]), inverse);
+    prepared.inverse[i] = inverse;
+    prepared.negative[i] = inverse < 0 ? 1 : 0;
+    prepared.near_origin[i] = ray.origin[i] + pad;
+    prepared.far_origin[i] = ray.origin[i] - pad;
+  }
+
+  const int z = size.x == largest ? 0 : size.y == largest ? 1 : 2;
+  const int x = (z + 1) % 3;
+  const int y = (z + 2) % 3;
+  prepared.axes = {static_cast<std::uint8_t>(x), static_cast<std::uint8_t>(y),
+                   static_cast<std::uint8_t>(z)};
+  prepared.origin = ray.origin;
+  prepared.shear_x = ray.direction[x] / ray.direction[z];
+  prepared.shear_y = ray.direction[y] / ray.direction[z];
+  prepared.scale_z = 1.0F / ray.direction[z];
+  prepared.t_max = std::min(ray.t_max, std::numeric_limits<float>::max());
+  return prepared;
+}
+
+// Where a ray is inside a box; empty if near > far. near >= 0.
+struct SlabInterval {
+  float near = 0;
+  float far = std::numeric_limits<float>::infinity();
+};
+
+[[nodiscard]] inline SlabInterval intersect_box(const PreparedRay& ray, const Aabb& box) {
+  SlabInterval interval;
+  for (int i = 0; i < 3; ++i) {
+    const bool negative = ray.negative[i] != 0;
+    const float near = (negative ? box.max[i] : box.min[i]) - ray.near_origin[i];
+    const float far = (negative ? box.min[i] : box.max[i]) - ray.far_origin[i];
+    interval.near = std::max(interval.near, near * ray.inverse[i]);
+    interval.far = std::min(interval.far, far * ray.inverse[i]);
+  }
+  return interval;
+}
+
+}  // namespace pah

@@ -1,0 +1,100 @@
+// Acceleration never changes an answer: to the last bit.
+
+#include <algorithm>
+#include <bit>
+#include <limits>
+
+#include "accel/soups.hpp"
+#include "catch.hpp"
+
+using namespace pah;
+using namespace pah::test;
+
+namespace {
+
+bool same_bits(float a, float b) {
+  return std::bit_cast<std::uint32_t>(a) == std::bit_cast<std::uint32_t>(b);
+}
+
+bool same(const Hit& a, const Hit& b) {
+  return a.triangle == b.triangle && same_bits(a.t, b.t) && same_bits(a.u, b.u) &&
+         same_bits(a.v, b.v);
+}
+
+struct Answers {
+  std::vector<Hit> hits;
+  std::vector<std::uint8_t> occluded;
+};
+
+Answers ask(const Accelerator& accelerator, const std::vector<Ray>& rays,
+            TraversalCounts* counts = nullptr) {
+  Answers answers;
+  answers.hits.resize(rays.size());
+  answers.occluded.resize(rays.size());
+  accelerator.closest_hit(rays, answers.hits, counts);
+  accelerator.occluded(rays, answers.occluded, counts);
+  return answers;
+}
+
+void check_same(const Answers& expected, const Answers& found) {
+  std::size_t different = 0;
+  std::size_t inconsistent = 0;
+  for (std::size_t i = 0; i < expected.hits.size(); ++i) {
+    different += same(expected.hits[i], found.hits[i]) ? 0 : 1;
+    inconsistent += expected.occluded[i] == found.occluded[i] &&
+                            found.hits[i].valid() == (found.occluded[i] != 0)
+                        ? 0
+                        : 1;
+  }
+  CHECK(different == 0);
+  CHECK(inconsistent == 0);
+}
+
+}  // namespace
+
+TEST_CASE("A global BVH answers like brute force, bit for bit") {
+  for (const Soup& soup : all_soups()) {
+    INFO(soup.name);
+    const std::vector<Ray> rays = rays_for(soup, 4000, 42);
+    const auto brute_force = make_brute_force(soup.triangles());
+    const auto bvh = make_global_bvh(soup.triangles());
+    const Answers expected = ask(*brute_force, rays);
+    check_same(expected, ask(*bvh, rays));
+
+    TraversalCounts counts;
+    check_same(expected, ask(*bvh, rays, &counts));
+    CHECK((counts.nodes > 0 || soup.indices.empty()));
+    if (soup.indices.size() > 1 && soup.name != "degenerate") {
+      CHECK(std::count_if(expected.hits.begin(), expected.hits.end(),
+                          [](const Hit& hit) { return hit.valid(); }) > 100);
+    }
+  }
+}
+
+TEST_CASE("Ties go to the lower index") {
+  Soup soup{"identical", {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {}};
+  soup.indices.assign(100, UVec3{0, 1, 2});
+  const std::vector<Ray> rays{{{0.25F, 0.25F, 1}, 10, {0, 0, -1}}};
+  CHECK(ask(*make_brute_force(soup.triangles()), rays).hits[0].triangle == 0);
+  CHECK(ask(*make_global_bvh(soup.triangles()), rays).hits[0].triangle == 0);
+}
+
+TEST_CASE("Rays that make no sense hit nothing") {
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  const float inf = std::numeric_limits<float>::infinity();
+  const Soup soup = random_soup(100, 1.0F, Vec3{0}, 1);
+  std::vector<Ray> rays(6);
+  rays[0].direction = {0, 0, 0};
+  rays[1].direction = {nan, 0, 1};
+  rays[2].origin = {0, nan, 0};
+  rays[3].t_max = nan;
+  rays[4].direction = {0, 0, inf};
+  rays[5].t_max = 0;
+  for (auto* make : {&make_brute_force, &make_global_bvh}) {
+    const Answers answers = ask(*make(soup.triangles()), rays);
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      CHECK_FALSE(answers.hits[i].valid());
+      CHECK(answers.occluded[i] == 0);
+    }
+  }
+}
