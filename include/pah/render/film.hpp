@@ -52,10 +52,14 @@ struct Film {
 [[nodiscard]] Image normal_of(const Film& film);
 // Distances in all three channels; 0 where nothing was hit.
 [[nodiscard]] Image depth_of(const Film& film);
-// The variance of the mean, per channel, from the samples' spread.
+// The variance of the mean, per channel, from the samples' spread as if they were independent. A
+// pixel's samples are stratified, so the true variance is no larger: this is an upper estimate.
+// 0 for a pixel with fewer than two samples.
 [[nodiscard]] Image variance_of(const Film& film);
 
-// The error that the image's own variance predicts.
+// The error that the image's own variance predicts, an upper estimate like the variance. The
+// interval is for the relmse that a comparison with a perfect reference would find. Pixels with
+// fewer than two samples are left out; if there are no others, the errors are infinite.
 struct ErrorEstimate {
   double mse = 0;
   double relmse = 0;         // mean over pixels and channels of (I - R)^2 / (R^2 + 0.01)
@@ -63,7 +67,8 @@ struct ErrorEstimate {
 };
 [[nodiscard]] ErrorEstimate estimate_error(const Film& film);
 
-// Differences between two pictures of one size; `b` is the reference.
+// Differences between two pictures of one size; `b` is the reference. Where either is not finite,
+// the difference is infinite.
 struct ImageDifference {
   double mse = 0;
   double relmse = 0;

@@ -18,7 +18,7 @@ struct Mesh {
   std::string name;
   std::vector<Vec3> positions;
   std::vector<Vec3> normals;  // one per position, of unit length, or none (flat shading)
-  std::vector<Vec2> uvs;      // one per position, or none
+  std::vector<Vec2> uvs;      // one per position, or none; v grows upwards in the image
   std::vector<UVec3> triangles;
 };
 

@@ -40,7 +40,8 @@ struct World {
 
 // Flattens the scene's instances. Instances that mirror (determinant < 0) have their triangles
 // turned over, so that normals keep pointing out. Throws std::length_error beyond 2^32 - 2
-// triangles or positions.
+// triangles or positions, and std::invalid_argument, naming the mesh, for ids out of range, for a
+// transform without inverse, and for numbers that are not finite once transformed.
 [[nodiscard]] World make_world(const Scene& scene);
 
 }  // namespace pah

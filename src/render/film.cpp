@@ -1,0 +1,109 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <pah/render/film.hpp>
+#include <stdexcept>
+
+namespace pah {
+namespace {
+
+template <class Value>
+Image image_of(const Film& film, const Value& value) {
+  Image image{film.rect.width(), film.rect.height(), {}};
+  image.pixels.reserve(film.pixels.size());
+  for (const FilmPixel& pixel : film.pixels) image.pixels.push_back(Vec3(value(pixel)));
+  return image;
+}
+
+DVec3 over(const DVec3& sum, std::uint32_t count) {
+  return count > 0 ? sum / static_cast<double>(count) : DVec3{0};
+}
+
+// Of a mean of n independent samples; 0 for fewer than two.
+DVec3 variance_of_mean(const FilmPixel& pixel) {
+  if (pixel.samples < 2) return DVec3{0};
+  const auto n = static_cast<double>(pixel.samples);
+  const DVec3 squares = pixel.sum_of_squares - pixel.sum * (pixel.sum / n);
+  return glm::max(squares, DVec3{0}) / (n * (n - 1));
+}
+
+}  // namespace
+
+Image radiance_of(const Film& film) {
+  return image_of(film, [](const FilmPixel& p) { return over(p.sum, p.samples); });
+}
+
+Image albedo_of(const Film& film) {
+  return image_of(film, [](const FilmPixel& p) { return over(p.albedo, p.samples); });
+}
+
+Image normal_of(const Film& film) {
+  return image_of(film, [](const FilmPixel& p) { return over(p.normal, p.samples); });
+}
+
+Image depth_of(const Film& film) {
+  return image_of(film, [](const FilmPixel& p) { return over(DVec3{p.depth}, p.hits); });
+}
+
+Image variance_of(const Film& film) { return image_of(film, variance_of_mean); }
+
+ErrorEstimate estimate_error(const Film& film) {
+  double mse = 0;
+  double relmse = 0;
+  double squares = 0;
+  std::uint64_t count = 0;
+  double bias = 0;
+  for (const FilmPixel& pixel : film.pixels) {
+    if (pixel.samples < 2) continue;
+    const DVec3 mean = over(pixel.sum, pixel.samples);
+    const DVec3 variance = variance_of_mean(pixel);
+    // mean^2 exceeds the square of the true value by the variance, on average.
+    const DVec3 reference = glm::max(mean * mean - variance, DVec3{0});
+    const DVec3 relative = variance / (reference + 0.01);
+    const double error = (relative.x + relative.y + relative.z) / 3;
+    mse += (variance.x + variance.y + variance.z) / 3;
+    relmse += error;
+    squares += error * error;
+    bias += error / pixel.samples;
+    ++count;
+  }
+  constexpr double unknown = std::numeric_limits<double>::infinity();
+  if (count == 0) return {unknown, unknown, 0, unknown};
+  const auto n = static_cast<double>(count);
+  mse /= n;
+  relmse /= n;
+  // By the central limit theorem over pixels. The spread of the predictions between pixels (their
+  // noise, and what truly differs) is the first part; the second is that of the squared errors
+  // themselves, whose variance is twice their squared mean for a normal error.
+  const double spread = std::max(squares / n - relmse * relmse, 0.0) + 2 * squares / n;
+  // The last is the bias of a ratio of two estimates, of relative order 1 / samples.
+  const double margin = 1.96 * std::sqrt(spread / n) + bias / n;
+  return {mse, relmse, std::max(relmse - margin, 0.0), relmse + margin};
+}
+
+ImageDifference compare_images(const Image& a, const Image& b) {
+  if (a.width != b.width || a.height != b.height || a.pixels.size() != b.pixels.size())
+    throw std::invalid_argument("pictures of different sizes: " + std::to_string(a.width) + " x " +
+                                std::to_string(a.height) + " and " + std::to_string(b.width) +
+                                " x " + std::to_string(b.height));
+  ImageDifference difference;
+  for (std::size_t i = 0; i < a.pixels.size(); ++i) {
+    for (int k = 0; k < 3; ++k) {
+      const double reference = b.pixels[i][k];
+      double error = std::abs(a.pixels[i][k] - reference);
+      double relative = error * error / (reference * reference + 0.01);
+      if (!std::isfinite(error)) error = relative = std::numeric_limits<double>::infinity();
+      difference.mse += error * error;
+      difference.relmse += relative;
+      difference.max = std::max(difference.max, error);
+    }
+  }
+  const double count = 3 * static_cast<double>(a.pixels.size());
+  if (count > 0) {
+    difference.mse /= count;
+    difference.relmse /= count;
+  }
+  return difference;
+}
+
+}  // namespace pah

@@ -1,0 +1,239 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <pah/scene/placement.hpp>
+#include <stdexcept>
+#include <unordered_map>
+
+namespace pah {
+namespace {
+
+bool finite(const DVec3& v) {
+  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+void require(bool condition, const char* message) {
+  if (!condition) throw std::invalid_argument(message);
+}
+
+// A uniform number in [0, 1) that depends on its arguments alone: a counter through the finaliser
+// of SplitMix64 (Steele, Lea, Flood, "Fast Splittable Pseudorandom Number Generators", 2014).
+double random_number(std::uint64_t seed, std::uint64_t index, std::uint64_t dimension) {
+  const auto mix = [](std::uint64_t z) {
+    z += 0x9E3779B97F4A7C15ULL;
+    z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9ULL;
+    z = (z ^ (z >> 27)) * 0x94D049BB133111EBULL;
+    return z ^ (z >> 31);
+  };
+  return static_cast<double>(mix(mix(mix(seed) ^ index) ^ dimension) >> 11) * 0x1p-53;
+}
+
+// What each random number of a copy is for.
+enum Draw : std::uint64_t { draw_triangle, draw_u, draw_v, draw_angle, draw_scale };
+
+glm::dmat4x3 translation(const DVec3& t) { return {DVec3{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, t}; }
+
+glm::dmat4x3 rotation_about_y(double radians) {
+  const double c = std::cos(radians);
+  const double s = std::sin(radians);
+  return {DVec3{c, 0, -s}, {0, 1, 0}, {s, 0, c}, {0, 0, 0}};
+}
+
+// A rotation that takes +y to the unit vector n (Duff et al., "Building an Orthonormal Basis,
+// Revisited", JCGT 2017, with the axes renamed).
+glm::dmat4x3 rotation_to(const DVec3& n) {
+  const double sign = std::copysign(1.0, n.y);
+  const double a = -1 / (sign + n.y);
+  const double b = n.z * n.x * a;
+  return {DVec3{sign + n.x * n.x * a, -n.x, b},
+          n,
+          {sign * b, -sign * n.z, 1 + sign * n.z * n.z * a},
+          {0, 0, 0}};
+}
+
+glm::dmat4x3 scaling(double s) { return {DVec3{s, 0, 0}, {0, s, 0}, {0, 0, s}, {0, 0, 0}}; }
+
+std::vector<glm::dmat4x3> place_copies(const LineRepeat& line) {
+  require(finite(line.step), "step must be finite");
+  std::vector<glm::dmat4x3> copies;
+  copies.reserve(line.count);
+  for (std::uint32_t i = 0; i < line.count; ++i)
+    copies.push_back(translation(static_cast<double>(i) * line.step));
+  return copies;
+}
+
+std::vector<glm::dmat4x3> place_copies(const GridRepeat& grid) {
+  require(finite(grid.step), "step must be finite");
+  const DVec3 first = grid.centered ? -0.5 * DVec3(grid.count - 1U) * grid.step : DVec3{0};
+  std::vector<glm::dmat4x3> copies;
+  copies.reserve(count_of(grid));
+  for (std::uint32_t z = 0; z < grid.count.z; ++z)
+    for (std::uint32_t y = 0; y < grid.count.y; ++y)
+      for (std::uint32_t x = 0; x < grid.count.x; ++x)
+        copies.push_back(translation(first + DVec3(x, y, z) * grid.step));
+  return copies;
+}
+
+std::vector<glm::dmat4x3> place_copies(const RingRepeat& ring) {
+  require(std::isfinite(ring.radius) && std::isfinite(ring.start),
+          "radius and start must be finite");
+  std::vector<glm::dmat4x3> copies;
+  copies.reserve(ring.count);
+  for (std::uint32_t i = 0; i < ring.count; ++i) {
+    const double degrees = ring.start + 360.0 * i / ring.count;
+    const glm::dmat4x3 turn = rotation_about_y(degrees * (std::numbers::pi / 180));
+    const DVec3 position = ring.radius * turn[0];
+    copies.push_back(ring.turn ? compose(translation(position), turn) : translation(position));
+  }
+  return copies;
+}
+
+// Accepts points that keep their distance from all points accepted before.
+class Spacing {
+ public:
+  // `extent` is the largest size of the region of the points: cells of at least 2^-20 of it keep
+  // cell numbers small.
+  Spacing(double distance, double extent)
+      : distance_(distance), cell_(std::max(distance, extent * 0x1p-20)) {}
+
+  bool accept(const DVec3& point) {
+    const Cell home{std::floor(point.x / cell_), std::floor(point.y / cell_),
+                    std::floor(point.z / cell_)};
+    for (int i = 0; i < 27; ++i) {
+      const Cell cell{home[0] + i % 3 - 1, home[1] + i / 3 % 3 - 1, home[2] + i / 9 - 1};
+      const auto [first, last] = points_.equal_range(cell);
+      for (auto it = first; it != last; ++it)
+        if (glm::distance(it->second, point) < distance_) return false;
+    }
+    points_.emplace(home, point);
+    return true;
+  }
+
+ private:
+  using Cell = std::array<double, 3>;
+  struct Hash {
+    std::size_t operator()(const Cell& cell) const {
+      std::size_t h = 0;
+      for (const double x : cell) h = (h ^ std::hash<double>{}(x)) * 0x9E3779B97F4A7C15ULL;
+      return h;
+    }
+  };
+  double distance_;
+  double cell_;
+  std::unordered_multimap<Cell, DVec3, Hash> points_;
+};
+
+struct SurfacePoint {
+  DVec3 position;
+  DVec3 normal;
+};
+
+// `sample(i)` is the i-th random point of the surface. With a minimum distance, candidates are
+// drawn until `count` are placed or 30 in a row per copy found no room.
+template <class Sample>
+std::vector<glm::dmat4x3> scatter_points(const ScatterOptions& options, double extent,
+                                         const Sample& sample) {
+  require(options.count > 0, "count must be at least 1");
+  require(
+      options.scale.x > 0 && options.scale.y >= options.scale.x && std::isfinite(options.scale.y),
+      "scale must be two factors 0 < low <= high");
+  require(options.min_distance >= 0 && std::isfinite(options.min_distance),
+          "min_distance must be a length >= 0");
+  constexpr std::uint64_t tries = 30;
+  const bool spaced = options.min_distance > 0;
+  const std::uint64_t candidates = spaced ? tries * options.count : options.count;
+  Spacing spacing(options.min_distance, extent);
+  std::vector<glm::dmat4x3> copies;
+  for (std::uint64_t i = 0; i < candidates && copies.size() < options.count; ++i) {
+    const SurfacePoint point = sample(i);
+    if (spaced && !spacing.accept(point.position)) continue;
+    glm::dmat4x3 copy = translation(point.position);
+    if (options.align) copy = compose(copy, rotation_to(point.normal));
+    if (options.turn)
+      copy = compose(copy, rotation_about_y(2 * std::numbers::pi *
+                                            random_number(options.seed, i, draw_angle)));
+    const double u = random_number(options.seed, i, draw_scale);
+    copies.push_back(
+        compose(copy, scaling(options.scale.x + u * (options.scale.y - options.scale.x))));
+  }
+  return copies;
+}
+
+}  // namespace
+
+glm::dmat4x3 compose(const glm::dmat4x3& c_from_b, const glm::dmat4x3& b_from_a) {
+  const DMat3 linear(c_from_b);
+  return {linear * b_from_a[0], linear * b_from_a[1], linear * b_from_a[2],
+          linear * b_from_a[3] + c_from_b[3]};
+}
+
+std::uint64_t count_of(const Repeat& repeat) {
+  if (const auto* grid = std::get_if<GridRepeat>(&repeat)) {
+    // Saturates: a product of three 32-bit numbers may not fit.
+    const std::uint64_t layer = std::uint64_t{grid->count.x} * grid->count.y;
+    if (grid->count.z != 0 && layer > UINT64_MAX / grid->count.z) return UINT64_MAX;
+    return layer * grid->count.z;
+  }
+  if (const auto* line = std::get_if<LineRepeat>(&repeat)) return line->count;
+  return std::get<RingRepeat>(repeat).count;
+}
+
+std::vector<glm::dmat4x3> place(const Repeat& repeat) {
+  require(count_of(repeat) > 0, "count must be at least 1");
+  return std::visit([](const auto& r) { return place_copies(r); }, repeat);
+}
+
+std::vector<glm::dmat4x3> scatter(const DVec2& size, const ScatterOptions& options) {
+  require(size.x >= 0 && size.y >= 0 && std::isfinite(size.x) && std::isfinite(size.y),
+          "size must be two lengths >= 0");
+  return scatter_points(options, std::max(size.x, size.y), [&](std::uint64_t i) {
+    return SurfacePoint{{(random_number(options.seed, i, draw_u) - 0.5) * size.x, 0,
+                         (random_number(options.seed, i, draw_v) - 0.5) * size.y},
+                        {0, 1, 0}};
+  });
+}
+
+std::vector<glm::dmat4x3> scatter(const Mesh& mesh, const glm::dmat4x3& world_from_object,
+                                  const ScatterOptions& options) {
+  const auto corner = [&](std::uint32_t vertex) {
+    return world_from_object * glm::dvec4(DVec3(mesh.positions[vertex]), 1);
+  };
+  // An instance that mirrors keeps its outside outside.
+  const double side = std::copysign(1.0, glm::determinant(DMat3(world_from_object)));
+  DVec3 low{INFINITY};
+  DVec3 high{-INFINITY};
+  std::vector<double> areas;  // up to and including each triangle
+  areas.reserve(mesh.triangles.size());
+  double total = 0;
+  for (const UVec3& t : mesh.triangles) {
+    const DVec3 a = corner(t.x);
+    const DVec3 b = corner(t.y);
+    const DVec3 c = corner(t.z);
+    total += glm::length(glm::cross(b - a, c - a));
+    areas.push_back(total);
+    low = glm::min(low, glm::min(a, glm::min(b, c)));
+    high = glm::max(high, glm::max(a, glm::max(b, c)));
+  }
+  require(total > 0 && std::isfinite(total), "the mesh to scatter over has no area");
+  const DVec3 extent = high - low;
+  return scatter_points(
+      options, std::max(extent.x, std::max(extent.y, extent.z)), [&](std::uint64_t i) {
+        // The first triangle whose running area exceeds the draw: never one without area.
+        const double draw = random_number(options.seed, i, draw_triangle) * total;
+        const auto at = std::upper_bound(areas.begin(), areas.end() - 1, draw) - areas.begin();
+        const UVec3& t = mesh.triangles[static_cast<std::size_t>(at)];
+        const DVec3 a = corner(t.x);
+        const DVec3 b = corner(t.y);
+        const DVec3 c = corner(t.z);
+        const double root = std::sqrt(random_number(options.seed, i, draw_u));
+        const double v = root * random_number(options.seed, i, draw_v);
+        const DVec3 normal = glm::cross(b - a, c - a);
+        const double length = glm::length(normal);
+        return SurfacePoint{(1 - root) * a + (root - v) * b + v * c,
+                            length > 0 ? side * normal / length : DVec3{0, 1, 0}};
+      });
+}
+
+}  // namespace pah

@@ -1,0 +1,268 @@
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+#include <tbb/parallel_reduce.h>
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <pah/scene/world.hpp>
+#include <stdexcept>
+
+namespace pah {
+namespace {
+
+struct Bounds {
+  DVec3 min{INFINITY};
+  DVec3 max{-INFINITY};
+
+  void extend(const Bounds& other) {
+    min = glm::min(min, other.min);
+    max = glm::max(max, other.max);
+  }
+};
+
+// What goes wrong with an instance, found in parallel and reported by the lowest instance, so that
+// the message does not depend on the threads.
+enum class Fault : std::uint8_t { none, index, position, normal, uv };
+
+const char* text_of(Fault fault) {
+  switch (fault) {
+    case Fault::none:
+      break;
+    case Fault::index:
+      return "a triangle names a vertex that there is not";
+    case Fault::position:
+      return "a position is not finite, or too large once transformed";
+    case Fault::normal:
+      return "a normal is zero or not finite";
+    case Fault::uv:
+      return "a texture coordinate is not finite";
+  }
+  return "";
+}
+
+[[noreturn]] void fail(const Mesh& mesh, const std::string& what) {
+  throw std::invalid_argument("mesh '" + mesh.name + "': " + what);
+}
+
+DVec3 transform_point(const glm::dmat4x3& m, const Vec3& p) { return m * glm::dvec4(DVec3(p), 1); }
+
+using Range = tbb::blocked_range<std::size_t>;
+
+// Ranges are long enough to be worth a task.
+template <class Body>
+void for_each_range(std::size_t count, const Body& body) {
+  tbb::parallel_for(Range(0, count, 4096),
+                    [&](const Range& range) { body(range.begin(), range.end()); });
+}
+
+// The box of the transformed triangles, or `invalid` set where an index is out of range. Unused
+// vertices do not count.
+Bounds bounds_of(const Mesh& mesh, const glm::dmat4x3& world_from_object,
+                 std::atomic<bool>& invalid) {
+  return tbb::parallel_reduce(
+      Range(0, mesh.triangles.size(), 4096), Bounds{},
+      [&](const Range& range, Bounds bounds) {
+        for (std::size_t i = range.begin(); i != range.end(); ++i) {
+          const UVec3& t = mesh.triangles[i];
+          for (const std::uint32_t vertex : {t.x, t.y, t.z}) {
+            if (vertex >= mesh.positions.size()) {
+              invalid.store(true, std::memory_order_relaxed);
+              return bounds;
+            }
+            const DVec3 p = transform_point(world_from_object, mesh.positions[vertex]);
+            bounds.extend({p, p});
+          }
+        }
+        return bounds;
+      },
+      [](Bounds a, const Bounds& b) {
+        a.extend(b);
+        return a;
+      });
+}
+
+// The linear part divided by the power of 2 that bounds it, which changes no direction and keeps
+// products of three entries from overflowing.
+DMat3 normalized_linear(const glm::dmat4x3& m) {
+  double largest = 0;
+  for (int column = 0; column < 3; ++column)
+    for (int row = 0; row < 3; ++row) largest = std::max(largest, std::abs(m[column][row]));
+  int exponent = 0;
+  std::frexp(largest, &exponent);
+  DMat3 linear(m);
+  for (int column = 0; column < 3; ++column)
+    for (int row = 0; row < 3; ++row)
+      linear[column][row] = std::ldexp(linear[column][row], -exponent);
+  return linear;
+}
+
+void require_valid(const Scene& scene, const Instance& instance) {
+  if (instance.mesh >= scene.meshes.size())
+    throw std::invalid_argument("an instance names a mesh that there is not");
+  const Mesh& mesh = scene.meshes[instance.mesh];
+  if (instance.material >= scene.materials.size())
+    fail(mesh, "its instance names a material that there is not");
+  if (instance.light != no_light && instance.light >= scene.lights.size())
+    fail(mesh, "its instance names a light that there is not");
+  if (!mesh.normals.empty() && mesh.normals.size() != mesh.positions.size())
+    fail(mesh, "as many normals as positions are needed, or none");
+  if (!mesh.uvs.empty() && mesh.uvs.size() != mesh.positions.size())
+    fail(mesh, "as many texture coordinates as positions are needed, or none");
+  const double det = glm::determinant(normalized_linear(instance.world_from_object));
+  if (!std::isfinite(det) || det == 0) fail(mesh, "its transform is not finite or flattens it");
+}
+
+// Where an instance's data go in the World.
+struct Slot {
+  std::uint32_t first_position = 0;
+  std::uint32_t first_triangle = 0;
+};
+
+Fault copy_vertices(const Mesh& mesh, const glm::dmat4x3& world_from_object, const Slot& slot,
+                    World& world) {
+  std::atomic<Fault> fault{Fault::none};
+  const DMat3 linear = normalized_linear(world_from_object);
+  // Normals go by the inverse transpose: the matrix of cofactors over the determinant, whose sign
+  // alone matters.
+  const double sign = std::copysign(1.0, glm::determinant(linear));
+  const DMat3 normal_matrix{sign * glm::cross(linear[1], linear[2]),
+                            sign * glm::cross(linear[2], linear[0]),
+                            sign * glm::cross(linear[0], linear[1])};
+  for_each_range(mesh.positions.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i != end; ++i) {
+      const std::size_t out = slot.first_position + i;
+      const Vec3 p{transform_point(world_from_object, mesh.positions[i]) - world.origin};
+      if (!(std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z)))
+        fault = Fault::position;
+      world.positions[out] = p;
+      if (!mesh.normals.empty()) {
+        const DVec3 n = normal_matrix * DVec3(mesh.normals[i]);
+        const double length = glm::length(n);
+        if (!(length > 0 && std::isfinite(length))) fault = Fault::normal;
+        world.normals[out] = Vec3(n / length);
+      }
+      if (!mesh.uvs.empty()) {
+        const Vec2& uv = mesh.uvs[i];
+        if (!(std::isfinite(uv.x) && std::isfinite(uv.y))) fault = Fault::uv;
+        world.uvs[out] = uv;
+      }
+    }
+  });
+  return fault;
+}
+
+void copy_triangles(const Mesh& mesh, bool mirrored, const Slot& slot, std::uint32_t surface,
+                    World& world) {
+  for_each_range(mesh.triangles.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i != end; ++i) {
+      const UVec3 t = mesh.triangles[i] + slot.first_position;
+      world.indices[slot.first_triangle + i] = mirrored ? UVec3{t.x, t.z, t.y} : t;
+      world.surface_of_triangle[slot.first_triangle + i] = surface;
+    }
+  });
+}
+
+// Places every instance in the arrays of the World, which it sizes.
+std::vector<Slot> lay_out(const Scene& scene, World& world) {
+  constexpr std::uint64_t limit = 0xFFFFFFFEULL;
+  std::uint64_t positions = 0;
+  std::uint64_t triangles = 0;
+  bool any_normals = false;
+  bool any_uvs = false;
+  std::vector<Slot> slots;
+  slots.reserve(scene.instances.size());
+  world.surfaces.reserve(scene.instances.size());
+  for (const Instance& instance : scene.instances) {
+    require_valid(scene, instance);
+    const Mesh& mesh = scene.meshes[instance.mesh];
+    slots.push_back({static_cast<std::uint32_t>(positions), static_cast<std::uint32_t>(triangles)});
+    world.surfaces.push_back({instance.material, instance.light,
+                              static_cast<std::uint32_t>(triangles),
+                              static_cast<std::uint32_t>(mesh.triangles.size()),
+                              !mesh.normals.empty(), !mesh.uvs.empty()});
+    positions += mesh.positions.size();
+    triangles += mesh.triangles.size();
+    any_normals |= !mesh.normals.empty();
+    any_uvs |= !mesh.uvs.empty();
+    if (positions > limit || triangles > limit)
+      throw std::length_error("the scene has more than 2^32 - 2 triangles or vertices");
+  }
+  world.positions.resize(positions);
+  if (any_normals) world.normals.resize(positions);
+  if (any_uvs) world.uvs.resize(positions);
+  world.indices.resize(triangles);
+  world.surface_of_triangle.resize(triangles);
+  return slots;
+}
+
+// The centre of the scene, in double and halved before adding.
+DVec3 center_of(const Scene& scene) {
+  std::vector<Bounds> boxes(scene.instances.size());
+  std::vector<Fault> faults(scene.instances.size(), Fault::none);
+  tbb::parallel_for(std::size_t{0}, scene.instances.size(), [&](std::size_t i) {
+    const Instance& instance = scene.instances[i];
+    std::atomic<bool> invalid{false};
+    boxes[i] = bounds_of(scene.meshes[instance.mesh], instance.world_from_object, invalid);
+    if (invalid) faults[i] = Fault::index;
+  });
+  Bounds all;
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    if (faults[i] != Fault::none) fail(scene.meshes[scene.instances[i].mesh], text_of(faults[i]));
+    all.extend(boxes[i]);
+  }
+  const DVec3 center = 0.5 * all.min + 0.5 * all.max;
+  const bool finite = std::isfinite(center.x) && std::isfinite(center.y) && std::isfinite(center.z);
+  return finite ? center : DVec3{0};
+}
+
+void recenter(World& world) {
+  std::visit(
+      [&](auto& camera) {
+        camera.position -= world.origin;
+        camera.look_at -= world.origin;
+      },
+      world.camera);
+  for (Light& light : world.lights) {
+    if (auto* point = std::get_if<PointLight>(&light.model)) point->position -= world.origin;
+    if (auto* spot = std::get_if<SpotLight>(&light.model)) spot->position -= world.origin;
+  }
+}
+
+template <class T>
+std::uint64_t bytes_of(const std::vector<T>& values) {
+  return values.size() * sizeof(T);
+}
+
+}  // namespace
+
+World make_world(const Scene& scene) {
+  World world;
+  world.camera = scene.camera;
+  world.lights = scene.lights;
+  world.materials = scene.materials;
+  world.textures = scene.textures;
+  const std::vector<Slot> slots = lay_out(scene, world);
+  world.origin = center_of(scene);
+  recenter(world);
+
+  std::vector<Fault> faults(scene.instances.size(), Fault::none);
+  tbb::parallel_for(std::size_t{0}, scene.instances.size(), [&](std::size_t i) {
+    const Instance& instance = scene.instances[i];
+    const Mesh& mesh = scene.meshes[instance.mesh];
+    const bool mirrored = glm::determinant(normalized_linear(instance.world_from_object)) < 0;
+    faults[i] = copy_vertices(mesh, instance.world_from_object, slots[i], world);
+    copy_triangles(mesh, mirrored, slots[i], static_cast<std::uint32_t>(i), world);
+  });
+  for (std::size_t i = 0; i < faults.size(); ++i)
+    if (faults[i] != Fault::none) fail(scene.meshes[scene.instances[i].mesh], text_of(faults[i]));
+  world.bounds = bounds_of(world.triangles());
+  return world;
+}
+
+std::uint64_t World::bytes() const {
+  return bytes_of(positions) + bytes_of(normals) + bytes_of(uvs) + bytes_of(indices) +
+         bytes_of(surface_of_triangle) + bytes_of(surfaces) + bytes_of(lights) +
+         bytes_of(materials) + bytes_of(textures);
+}
+
+}  // namespace pah

@@ -1,0 +1,105 @@
+#include "catch.hpp"
+
+#include <cmath>
+#include <pah/render/film.hpp>
+#include <random>
+
+using namespace pah;
+
+namespace {
+
+Film make_film(int width, int height) {
+  Film film;
+  film.rect = {0, width, 0, height};
+  film.pixels.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+  return film;
+}
+
+void add(FilmPixel& pixel, const DVec3& sample) {
+  pixel.sum += sample;
+  pixel.sum_of_squares += sample * sample;
+  ++pixel.samples;
+}
+
+Image constant(int width, int height, float value) {
+  return {width, height,
+          std::vector<Vec3>(static_cast<std::size_t>(width) * static_cast<std::size_t>(height),
+                            Vec3(value))};
+}
+
+}  // namespace
+
+TEST_CASE("means and variances of pixels") {
+  Film film = make_film(2, 1);
+  FilmPixel& pixel = film.at(0, 0);
+  for (const double x : {1.0, 2.0, 6.0}) add(pixel, {x, 2 * x, 0});
+  pixel.albedo = {1.5, 3, 0};
+  pixel.normal = {0, 3, 0};
+  pixel.depth = 10;
+  pixel.hits = 2;
+  CHECK(radiance_of(film).at(0, 0) == Vec3(3, 6, 0));
+  CHECK(radiance_of(film).at(1, 0) == Vec3(0));
+  CHECK(albedo_of(film).at(0, 0) == Vec3(0.5F, 1, 0));
+  CHECK(normal_of(film).at(0, 0) == Vec3(0, 1, 0));
+  CHECK(depth_of(film).at(0, 0) == Vec3(5));
+  CHECK(depth_of(film).at(1, 0) == Vec3(0));
+  // The samples' variance is 7, that of their mean a third of it.
+  CHECK(variance_of(film).at(0, 0).x == Approx(7.0 / 3));
+  CHECK(variance_of(film).at(0, 0).y == Approx(28.0 / 3));
+  CHECK(variance_of(film).at(1, 0) == Vec3(0));
+}
+
+TEST_CASE("the error is predicted within its interval") {
+  // Pixels of many brightnesses and of skewed noise; the truth is known.
+  std::mt19937 random(7);
+  for (const int samples : {4, 16, 64}) {
+    int covered = 0;
+    double ratio = 0;
+    const int runs = 40;
+    for (int run = 0; run < runs; ++run) {
+      Film film = make_film(64, 32);
+      Image truth = constant(64, 32, 0);
+      for (int i = 0; i < 64 * 32; ++i) {
+        const double mean = 0.05 + 2.0 * i / (64 * 32);
+        truth.pixels[static_cast<std::size_t>(i)] = Vec3(static_cast<float>(mean));
+        std::exponential_distribution<double> sample(1 / mean);
+        for (int s = 0; s < samples; ++s)
+          add(film.pixels[static_cast<std::size_t>(i)],
+              {sample(random), sample(random), sample(random)});
+      }
+      const ErrorEstimate estimate = estimate_error(film);
+      const ImageDifference actual = compare_images(radiance_of(film), truth);
+      ratio += estimate.relmse / actual.relmse / runs;
+      covered += estimate.low <= actual.relmse && actual.relmse <= estimate.high;
+      CHECK(estimate.mse == Approx(actual.mse).epsilon(0.25));
+    }
+    CAPTURE(samples, ratio, covered);
+    CHECK(ratio == Approx(1).epsilon(1.0 / samples));
+    CHECK(covered >= 36);
+  }
+}
+
+TEST_CASE("an error that cannot be known is infinite") {
+  Film film = make_film(2, 1);
+  CHECK(std::isinf(estimate_error(film).relmse));
+  add(film.at(0, 0), DVec3{1});
+  CHECK(std::isinf(estimate_error(film).high));
+  add(film.at(0, 0), DVec3{1});
+  CHECK(estimate_error(film).relmse == 0);
+  CHECK(estimate_error(film).high == 0);
+}
+
+TEST_CASE("images are compared in linear values") {
+  Image a = constant(2, 2, 1);
+  const Image b = constant(2, 2, 1);
+  CHECK(compare_images(a, b).max == 0);
+  a.pixels[3].y = 1.5F;
+  const ImageDifference d = compare_images(a, b);
+  CHECK(d.max == 0.5);
+  CHECK(d.mse == Approx(0.25 / 12));
+  CHECK(d.relmse == Approx(0.25 / 1.01 / 12));
+  a.pixels[0].x = NAN;
+  CHECK(std::isinf(compare_images(a, b).max));
+  CHECK(std::isinf(compare_images(a, b).relmse));
+  CHECK_THROWS_AS(compare_images(a, constant(1, 4, 1)), std::invalid_argument);
+}
