@@ -21,8 +21,9 @@ std::string last_error() { return std::generic_category().message(errno); }
 // Where a link leads: renaming is to replace the file, not the link to it.
 fs::path resolved(const fs::path& file) {
   std::error_code error;
-  fs::path target = fs::weakly_canonical(file, error);
-  return error ? file : target;
+  const fs::path absolute = fs::absolute(file, error);
+  fs::path target = fs::weakly_canonical(absolute, error);
+  return error ? absolute : target;
 }
 
 bool is_device(const fs::path& file) {
