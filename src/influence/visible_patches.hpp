@@ -1,0 +1,121 @@
+// What a bundle of rays meets of a box, as disjoint convex patches of the picture plane.
+//
+// A ray enters a box through a face that is turned towards it, or starts inside: so the patches are
+// those of at most three faces, and of the region's near face where it cuts the box. On a face's
+// plane everything that bounds a patch (its four edges, the near and the far plane) is linear in
+// the picture coordinates. So each patch is the region's rectangle clipped by a few half-planes:
+// nothing is projected, and nothing is ever divided by a depth.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <pah/influence/box_sectors.hpp>
+#include <span>
+
+namespace pah {
+
+// x * X + y * Y + c over the picture plane.
+struct Linear {
+  double x = 0, y = 0, c = 0;
+
+  [[nodiscard]] double operator()(const DVec2& p) const { return x * p.x + y * p.y + c; }
+  friend Linear operator+(const Linear& a, const Linear& b) {
+    return {a.x + b.x, a.y + b.y, a.c + b.c};
+  }
+  friend Linear operator-(const Linear& a, const Linear& b) {
+    return {a.x - b.x, a.y - b.y, a.c - b.c};
+  }
+  friend Linear operator*(double s, const Linear& a) { return {s * a.x, s * a.y, s * a.c}; }
+};
+
+// A rectangle clipped by at most six half-planes: ten vertices at most.
+class Patch {
+ public:
+  explicit Patch(const DVec2& half_size)
+      : points_{{{-half_size.x, -half_size.y},
+                 {half_size.x, -half_size.y},
+                 {half_size.x, half_size.y},
+                 {-half_size.x, half_size.y}}} {}
+
+  // Keeps what is not negative (Sutherland and Hodgman, 1974).
+  void clip(const Linear& keep) {
+    std::array<DVec2, capacity> kept{};
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < size_; ++i) {
+      const DVec2& p = points_[i];
+      const DVec2& q = points_[i + 1 == size_ ? 0 : i + 1];
+      const double a = keep(p);
+      const double b = keep(q);
+      // Rounding can make a sliver change sides more than twice; it has no area to lose.
+      if (a >= 0 && count < capacity) kept[count++] = p;
+      if (((a > 0 && b < 0) || (a < 0 && b > 0)) && count < capacity)
+        kept[count++] = p + a / (a - b) * (q - p);
+    }
+    points_ = kept;
+    size_ = count;
+  }
+  // Keeps what is positive: nothing at all if no vertex is.
+  void clip_strictly(const Linear& keep) {
+    const auto all = points();
+    if (std::any_of(all.begin(), all.end(), [&](const DVec2& p) { return keep(p) > 0; }))
+      clip(keep);
+    else
+      size_ = 0;
+  }
+  [[nodiscard]] std::span<const DVec2> points() const { return {points_.data(), size_}; }
+
+ private:
+  static constexpr std::size_t capacity = 12;
+  std::array<DVec2, capacity> points_{};
+  std::size_t size_ = 4;
+};
+
+// The region's rays: at depth z they are at offset + z * slope, both linear in the picture plane.
+// Parallel rays have constant slopes, rays through a point have no offset.
+struct PictureFrame {
+  std::array<Linear, 3> offset, slope;  // by world axis, relative to the region's origin
+  DVec2 half_size{1};
+  double near = 0, far = 1;
+};
+
+// Calls visit(patch) for every patch of the box [low, high], given relative to the region's origin.
+template <typename Visit>
+void for_each_patch(const PictureFrame& frame, const DVec3& low, const DVec3& high,
+                    const BoxSector& sector, Visit visit) {
+  // s and t below are not both linear in the picture: one of each pair of factors is constant.
+  const auto times = [](const Linear& a, const Linear& b) {
+    return b.x == 0 && b.y == 0 ? b.c * a : a.c * b;
+  };
+  Patch cap(frame.half_size);  // where rays start inside the box
+  for (int k = 0; k < 3; ++k) {
+    const auto axis = static_cast<std::size_t>(k);
+    const Linear start = frame.offset[axis] + frame.near * frame.slope[axis];
+    const Linear above_low = start - Linear{0, 0, low[k]};
+    const Linear below_high = Linear{0, 0, high[k]} - start;
+    const int side = sector[k];
+    if (side >= 0) cap.clip(above_low);
+    if (side <= 0) cap.clip(below_high);
+    if (side == 0) continue;
+    // The plane of the face is met at depth t / s. Rays enter there where s > 0.
+    const double face = side > 0 ? high[k] : low[k];
+    const Linear s = -side * frame.slope[axis];
+    const Linear t = side * (frame.offset[axis] - Linear{0, 0, face});
+    Patch patch(frame.half_size);
+    // A ray enters through the face or starts beyond it: the same number, so never both.
+    const Linear started_beyond = side > 0 ? below_high : above_low;
+    cap.clip_strictly(started_beyond);
+    patch.clip(-1 * started_beyond);
+    patch.clip(frame.far * s - t);
+    for (int j = 0; j < 3; ++j) {
+      if (j == k) continue;
+      const auto other = static_cast<std::size_t>(j);
+      const Linear at = times(frame.offset[other], s) + times(frame.slope[other], t);
+      patch.clip(at - low[j] * s);
+      patch.clip(high[j] * s - at);
+    }
+    if (patch.points().size() >= 3) visit(patch.points());
+  }
+  if (cap.points().size() >= 3) visit(cap.points());
+}
+
+}  // namespace pah
