@@ -7,7 +7,7 @@
 
 namespace pah {
 
-// Where an error is: line and column count from 1; 0 means not known.
+// Where an error is: line and column count from 1, columns in characters; 0 means not known.
 struct Location {
   std::string file;
   int line = 0;
@@ -17,7 +17,8 @@ struct Location {
 struct LocatedError {
   Location where;
   std::string message;
-  std::string excerpt;  // the line of text, or empty
+  std::string excerpt;  // the line of text or, if that is long, a part of it; or empty
+  int caret = 0;        // the excerpt's character to point at, from 1; 0 for where.column
 };
 
 // "file:line:column: error: message", then the excerpt and a caret under the column.

@@ -1,0 +1,25 @@
+// "Did you mean": the nearest of the names that would have been right.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace pah {
+
+// Insertions, deletions, substitutions and swaps of neighbours that turn `a` into `b`: the
+// restricted Damerau-Levenshtein distance.
+[[nodiscard]] int edit_distance(std::string_view a, std::string_view b);
+
+// "; did you mean 'x'?" if a name is near enough, or nothing.
+[[nodiscard]] std::string suggestion(std::string_view word, const std::vector<std::string>& names);
+
+// The suggestion if there is one, else "; available keys are: ...".
+[[nodiscard]] std::string suggestion_or_keys(std::string_view word,
+                                             const std::vector<std::string>& keys);
+
+// "; did you mean 'x'? Available options are: ..."; the list only if it is short enough to read.
+[[nodiscard]] std::string suggestion_and_options(std::string_view word,
+                                                 const std::vector<std::string>& options);
+
+}  // namespace pah
