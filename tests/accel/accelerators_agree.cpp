@@ -4,8 +4,8 @@
 #include <bit>
 #include <limits>
 
-#include "accel/soups.hpp"
 #include "catch.hpp"
+#include "support/soups.hpp"
 
 using namespace pah;
 using namespace pah::test;

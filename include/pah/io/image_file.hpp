@@ -1,4 +1,5 @@
-// Pictures to and from files, by OpenImageIO.
+// Pictures to and from files, by OpenImageIO: PNG and JPEG (8-bit sRGB), TIFF (16-bit sRGB), HDR
+// (RGBE) and EXR (linear floats).
 #pragma once
 
 #include <filesystem>
@@ -10,7 +11,7 @@
 
 namespace pah {
 
-// Metadata by name: text, or a number written as one.
+// Metadata by name. Formats keep what they have room for.
 using ImageMetadata = std::vector<std::pair<std::string, std::string>>;
 
 struct ImageLayer {
@@ -20,8 +21,8 @@ struct ImageLayer {
 };
 
 struct WriteOptions {
-  double exposure = 0;      // stops; low dynamic range files only
-  bool full_float = false;  // EXR: 32-bit instead of 16-bit
+  double exposure = 0;      // stops; PNG, JPEG and TIFF only
+  bool full_float = false;  // EXR: 32-bit colours; depth and variance always are
   ImageMetadata metadata;
 };
 
@@ -32,11 +33,14 @@ struct WriteOptions {
 void check_writable(const std::filesystem::path& file);
 
 // The first layer is the picture; the others go to formats that hold them (EXR) only. Written
-// beside `file` under another name and renamed when complete. Throws FileError.
+// beside `file` under another name and renamed when complete. The same picture gives the same
+// bytes. Throws FileError, and std::invalid_argument unless all layers are of one size.
 void write_image(const std::filesystem::path& file, const std::vector<ImageLayer>& layers,
                  const WriteOptions& options = {});
 
-// The first three channels (or the first, thrice), linear. Throws FileError.
-[[nodiscard]] Image read_image(const std::filesystem::path& file);
+// R, G and B (or the first three channels, or the first, thrice), linear: 8- and 16-bit colours are
+// taken for sRGB. Throws FileError, also if the picture is larger than `max_bytes` as floats.
+[[nodiscard]] Image read_image(const std::filesystem::path& file,
+                               std::uint64_t max_bytes = 4ULL << 30);
 
 }  // namespace pah
