@@ -33,6 +33,10 @@ struct TextureImage {
   std::vector<Vec3> pixels;
 };
 
+// What a look-up is for. Images whose encoding is not declared hold plain numbers if they are used
+// as data: roughness, opacity, normals.
+enum class TextureUse { color, data };
+
 // Look-ups are thread-safe and do not throw. Colours are linear Rec. 709.
 class TextureStore {
  public:
@@ -46,8 +50,8 @@ class TextureStore {
   // in texture coordinates (0: the finest level, interpolated). Images without alpha have alpha 1;
   // one-channel images are grey. Where the file fails to decode, or the coordinates are not finite:
   // black.
-  [[nodiscard]] Vec4 sample(TextureId id, Vec2 uv, float footprint_u = 0,
-                            float footprint_v = 0) const noexcept;
+  [[nodiscard]] Vec4 sample(TextureId id, Vec2 uv, TextureUse use = TextureUse::color,
+                            Vec2 footprint = Vec2{0}) const noexcept;
 
   // value times the texture, if there is one.
   [[nodiscard]] Vec3 color(const ColorInput& input, Vec2 uv, float footprint = 0) const noexcept;

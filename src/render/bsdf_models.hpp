@@ -1,0 +1,41 @@
+// The scattering models one by one, as bsdf.cpp dispatches to them. Neither z is 0, and wo.z > 0
+// for all but glass: opaque surfaces seen from below have been turned over.
+#pragma once
+
+#include "render/bsdf.hpp"
+
+namespace pah::models {
+
+[[nodiscard]] Vec3 evaluate(const DiffuseBsdf& m, const Vec3& wo, const Vec3& wi);
+[[nodiscard]] float pdf(const DiffuseBsdf& m, const Vec3& wo, const Vec3& wi);
+[[nodiscard]] std::optional<BsdfSample> sample(const DiffuseBsdf& m, const Vec3& wo, float u,
+                                               Vec2 u2);
+
+[[nodiscard]] Vec3 evaluate(const MirrorBsdf& m, const Vec3& wo, const Vec3& wi);
+[[nodiscard]] float pdf(const MirrorBsdf& m, const Vec3& wo, const Vec3& wi);
+[[nodiscard]] std::optional<BsdfSample> sample(const MirrorBsdf& m, const Vec3& wo, float u,
+                                               Vec2 u2);
+
+[[nodiscard]] Vec3 evaluate(const GlassBsdf& m, const Vec3& wo, const Vec3& wi);
+[[nodiscard]] float pdf(const GlassBsdf& m, const Vec3& wo, const Vec3& wi);
+[[nodiscard]] std::optional<BsdfSample> sample(const GlassBsdf& m, const Vec3& wo, float u,
+                                               Vec2 u2);
+
+[[nodiscard]] Vec3 evaluate(const MetalBsdf& m, const Vec3& wo, const Vec3& wi);
+[[nodiscard]] float pdf(const MetalBsdf& m, const Vec3& wo, const Vec3& wi);
+[[nodiscard]] std::optional<BsdfSample> sample(const MetalBsdf& m, const Vec3& wo, float u,
+                                               Vec2 u2);
+
+[[nodiscard]] Vec3 evaluate(const CoatedBsdf& m, const Vec3& wo, const Vec3& wi);
+[[nodiscard]] float pdf(const CoatedBsdf& m, const Vec3& wo, const Vec3& wi);
+[[nodiscard]] std::optional<BsdfSample> sample(const CoatedBsdf& m, const Vec3& wo, float u,
+                                               Vec2 u2);
+
+[[nodiscard]] inline Vec3 mirrored(const Vec3& w) { return {-w.x, -w.y, w.z}; }
+
+// The weight by which colours choose lobes.
+[[nodiscard]] inline float mean(const Vec3& color) {
+  return (color.x + color.y + color.z) * (1.0F / 3.0F);
+}
+
+}  // namespace pah::models

@@ -1,0 +1,114 @@
+#include "render/warp.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/gtc/constants.hpp>
+
+namespace pah {
+namespace {
+
+constexpr float pi = glm::pi<float>();
+
+Vec3 from_height(float z, float sin_theta, float u) {
+  const float phi = 2 * pi * u;
+  return {sin_theta * std::cos(phi), sin_theta * std::sin(phi), z};
+}
+
+// The Blackman-Harris window on [-1, 1], taken as linear between equidistant knots. The knots'
+// trapezoidal sum is the window's integral exactly, since it is a sum of four cosines.
+constexpr int intervals = 256;
+constexpr double a0 = 0.35875, a1 = 0.48829, a2 = 0.14128, a3 = 0.01168;
+
+struct Window {
+  std::array<float, intervals + 1> density;  // at the knots
+  std::array<float, intervals + 1> cdf;
+};
+
+Window make_window() {
+  Window window{};
+  double sum = 0, previous = 0;
+  for (int i = 0; i <= intervals; ++i) {
+    const double x = glm::pi<double>() * (2.0 * i / intervals - 1);
+    const double value = a0 + a1 * std::cos(x) + a2 * std::cos(2 * x) + a3 * std::cos(3 * x);
+    const double density = value / (2 * a0);
+    if (i > 0) sum += (previous + density) / intervals;
+    previous = density;
+    window.density[static_cast<std::size_t>(i)] = static_cast<float>(density);
+    window.cdf[static_cast<std::size_t>(i)] = static_cast<float>(sum);
+  }
+  return window;
+}
+
+const Window window = make_window();
+
+float sample_window(float u) {
+  const auto next = std::upper_bound(window.cdf.begin() + 1, window.cdf.end() - 1, u);
+  const auto i = static_cast<std::size_t>(next - window.cdf.begin()) - 1;
+  // Inverts a t + (b - a) t^2 / 2 = c, in the form that does not cancel.
+  const float a = window.density[i];
+  const float b = window.density[i + 1];
+  const float c = (u - window.cdf[i]) * (intervals / 2.0F);
+  const float root = std::sqrt(std::max(0.0F, a * a + 2 * (b - a) * c));
+  const float t = c > 0 ? std::min(1.0F, 2 * c / (a + root)) : 0.0F;
+  return (static_cast<float>(i) + t) * (2.0F / intervals) - 1;
+}
+
+float window_density(float x) {
+  if (!(std::abs(x) < 1)) return 0;
+  const float position = (x + 1) * (intervals / 2.0F);
+  const int i = std::min(static_cast<int>(position), intervals - 1);
+  const auto k = static_cast<std::size_t>(i);
+  return glm::mix(window.density[k], window.density[k + 1], position - static_cast<float>(i));
+}
+
+}  // namespace
+
+Vec3 sample_uniform_sphere(Vec2 u) { return sample_uniform_cone(u, 2); }
+
+float pdf_uniform_sphere() { return 1 / (4 * pi); }
+
+Vec3 sample_uniform_hemisphere(Vec2 u) { return sample_uniform_cone(u, 1); }
+
+float pdf_uniform_hemisphere(const Vec3& w) { return w.z >= 0 ? 1 / (2 * pi) : 0; }
+
+Vec3 sample_cosine_hemisphere(Vec2 u) {
+  const Vec2 d = sample_unit_disk(u);
+  return {d, std::sqrt(std::max(0.0F, 1 - glm::dot(d, d)))};
+}
+
+float pdf_cosine_hemisphere(const Vec3& w) { return std::max(0.0F, w.z) / pi; }
+
+Vec3 sample_uniform_cone(Vec2 u, float one_minus_cos) {
+  const float h = u.x * one_minus_cos;
+  return from_height(1 - h, std::sqrt(h * (2 - h)), u.y);
+}
+
+float pdf_uniform_cone(float one_minus_cos) { return 1 / (2 * pi * one_minus_cos); }
+
+Vec2 sample_unit_disk(Vec2 u) {
+  const Vec2 s = 2.0F * u - 1.0F;
+  if (s.x == 0 && s.y == 0) return {0, 0};
+  const bool x_larger = std::abs(s.x) > std::abs(s.y);
+  const float r = x_larger ? s.x : s.y;
+  const float phi = x_larger ? pi / 4 * (s.y / s.x) : pi / 2 - pi / 4 * (s.x / s.y);
+  return {r * std::cos(phi), r * std::sin(phi)};
+}
+
+Vec2 sample_uniform_triangle(Vec2 u) {
+  const float root = std::sqrt(u.x);
+  return {root * (1 - u.y), root * u.y};
+}
+
+Vec2 sample_blackman_harris(Vec2 u, float radius) {
+  return radius * Vec2{sample_window(u.x), sample_window(u.y)};
+}
+
+float pdf_blackman_harris(Vec2 offset, float radius) {
+  const Vec2 x = offset / radius;
+  return window_density(x.x) * window_density(x.y) / (radius * radius);
+}
+
+Vec2 sample_box(Vec2 u, float radius) { return radius * (2.0F * u - 1.0F); }
+
+}  // namespace pah

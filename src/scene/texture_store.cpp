@@ -1,0 +1,270 @@
+#include "scene/texture_store.hpp"
+
+#include <OpenImageIO/texture.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "scene/texture_linear_input.hpp"
+
+namespace pah {
+namespace {
+
+using Handle = OIIO::TextureSystem::TextureHandle;
+
+struct ImageEntry {
+  Handle* color = nullptr;  // decoded
+  Handle* data = nullptr;   // as stored
+  int channels = 0;
+  bool srgb = false;
+  bool clamp = false;
+};
+
+struct Entry {
+  bool checker = false;
+  glm::dvec2 scale{1};
+  glm::dvec2 offset{0};
+  Vec4 a{0}, b{0};  // of the checkerboard
+  ImageEntry image;
+};
+
+bool is_srgb(const ImageTexture& texture, const OIIO::ImageSpec& spec) {
+  switch (texture.color_space) {
+    case ColorSpace::srgb:
+      return true;
+    case ColorSpace::linear:
+      return false;
+    case ColorSpace::automatic:
+      break;
+  }
+  const bool integer = spec.format == OIIO::TypeUInt8 || spec.format == OIIO::TypeUInt16;
+  return integer && spec.nchannels >= 3;
+}
+
+struct OpenImage {
+  std::unique_ptr<OIIO::ImageInput> input;
+  OIIO::ImageSpec spec;
+};
+
+std::string described(const std::filesystem::path& file, std::string reason) {
+  while (!reason.empty() && (reason.back() == '\n' || reason.back() == ' ')) reason.pop_back();
+  std::string message = "cannot read texture '" + file.string() + "'";
+  if (!reason.empty()) message += ": " + reason;
+  return message;
+}
+
+// Reads the header, and refuses what would not fit before anything is decoded.
+OpenImage open_image(TextureId id, const ImageTexture& texture, const TextureOptions& options) {
+  OIIO::ImageSpec config;
+  config.attribute("oiio:UnassociatedAlpha", 1);
+  OpenImage image;
+  image.input = OIIO::ImageInput::open(texture.file.string(), &config);
+  if (!image.input) throw TextureError(id, described(texture.file, OIIO::geterror()));
+  image.spec = image.input->spec();
+  const OIIO::ImageSpec& spec = image.spec;
+  if (spec.width < 1 || spec.height < 1 || spec.nchannels < 1 || spec.depth > 1 || spec.deep) {
+    throw TextureError(id, described(texture.file, "not a flat picture"));
+  }
+  const double bytes = 4.0 * spec.width * spec.height * spec.nchannels;
+  if (bytes > static_cast<double>(options.max_image_bytes)) {
+    throw TextureError(
+        id, described(texture.file, std::to_string(spec.width) + " x " +
+                                        std::to_string(spec.height) + " pixels of " +
+                                        std::to_string(spec.nchannels) + " channels exceed " +
+                                        std::to_string(options.max_image_bytes >> 20) + " MiB"));
+  }
+  return image;
+}
+
+// A file that ends early shows in its last row.
+void check_last_row(TextureId id, const ImageTexture& texture, OpenImage& image) {
+  const OIIO::ImageSpec& spec = image.spec;
+  const int last = spec.y + spec.height - 1;
+  std::vector<float> texels;
+  bool read = false;
+  if (spec.tile_width > 0) {
+    texels.resize(spec.tile_pixels() * static_cast<std::size_t>(spec.nchannels));
+    const int x = spec.x + (spec.width - 1) / spec.tile_width * spec.tile_width;
+    const int y = spec.y + (spec.height - 1) / spec.tile_height * spec.tile_height;
+    read = image.input->read_tile(x, y, spec.z, OIIO::TypeFloat, texels.data());
+  } else {
+    texels.resize(static_cast<std::size_t>(spec.width) * static_cast<std::size_t>(spec.nchannels));
+    read = image.input->read_scanline(last, spec.z, OIIO::TypeFloat, texels.data());
+  }
+  if (!read) throw TextureError(id, described(texture.file, image.input->geterror()));
+}
+
+Vec4 as_rgba(const float* texel, int channels) {
+  switch (channels) {
+    case 1:
+      return {texel[0], texel[0], texel[0], 1};
+    case 2:
+      return {texel[0], texel[0], texel[0], texel[1]};
+    case 3:
+      return {texel[0], texel[1], texel[2], 1};
+    default:
+      return {texel[0], texel[1], texel[2], texel[3]};
+  }
+}
+
+// The mean over [x - w/2, x + w/2] of the square wave that is 1 on [0, 1), -1 on [1, 2), ...
+double mean_square_wave(double x, double w) {
+  const double low = x - w / 2;
+  const double high = x + w / 2;
+  if (!(low < high)) return std::fmod(std::abs(std::floor(x)), 2.0) == 0 ? 1 : -1;
+  const auto integral = [](double t) { return 1 - std::abs(t - 2 * std::floor(t / 2) - 1); };
+  return std::clamp((integral(high) - integral(low)) / (high - low), -1.0, 1.0);
+}
+
+Vec4 sample_checker(const Entry& entry, const glm::dvec2& st, const glm::dvec2& width) {
+  const double same = mean_square_wave(st.x, width.x) * mean_square_wave(st.y, width.y);
+  return glm::mix(entry.b, entry.a, static_cast<float>(0.5 + 0.5 * same));
+}
+
+}  // namespace
+
+struct TextureStore::Impl {
+  struct DestroySystem {
+    void operator()(OIIO::TextureSystem* system) const {
+      OIIO::TextureSystem::destroy(system, true);
+    }
+  };
+
+  TextureOptions options;
+  std::vector<Texture> textures;
+  std::vector<Entry> entries;
+  std::unique_ptr<OIIO::TextureSystem, DestroySystem> system;  // none if there are no images
+
+  void start_system();
+  [[nodiscard]] ImageEntry load(TextureId id, const ImageTexture& texture);
+  [[nodiscard]] Vec4 sample_image(const ImageEntry& image, bool decoded, const glm::dvec2& st,
+                                  const glm::dvec2& width) const;
+};
+
+void TextureStore::Impl::start_system() {
+  system.reset(OIIO::TextureSystem::create(false));
+  system->attribute("max_memory_MB", static_cast<float>(options.cache_megabytes));
+  system->attribute("autotile", 64);
+  system->attribute("automip", 1);
+  system->attribute("unassociatedalpha", 1);
+  system->attribute("max_errors_per_file", 1);
+}
+
+ImageEntry TextureStore::Impl::load(TextureId id, const ImageTexture& texture) {
+  OpenImage opened = open_image(id, texture, options);
+  check_last_row(id, texture, opened);
+  ImageEntry entry;
+  entry.channels = std::min(opened.spec.nchannels, 4);
+  entry.srgb = is_srgb(texture, opened.spec);
+  entry.clamp = texture.clamp;
+  entry.data = system->get_texture_handle(OIIO::ustring(texture.file.string()));
+  entry.color = entry.data;
+  if (entry.srgb) {
+    const OIIO::ustring name("linear:" + std::to_string(id) + ":" + texture.file.string());
+    add_linear_image(*system->imagecache(), name, texture.file);
+    entry.color = system->get_texture_handle(name);
+  }
+  return entry;
+}
+
+Vec4 TextureStore::Impl::sample_image(const ImageEntry& image, bool decoded, const glm::dvec2& st,
+                                      const glm::dvec2& width) const {
+  static constexpr std::array<float, 4> black{0, 0, 0, 0};
+  OIIO::TextureOpt opt;
+  opt.swrap = image.clamp ? OIIO::TextureOpt::WrapClamp : OIIO::TextureOpt::WrapPeriodic;
+  opt.twrap = opt.swrap;
+  opt.interpmode = OIIO::TextureOpt::InterpBilinear;
+  opt.missingcolor = black.data();
+  const bool filtered = width.x > 0 || width.y > 0;
+  opt.mipmode = filtered ? OIIO::TextureOpt::MipModeAniso : OIIO::TextureOpt::MipModeNoMIP;
+  // OpenImageIO counts t from the top.
+  const glm::dvec2 p{st.x, 1 - st.y};
+  const glm::dvec2 q = image.clamp ? glm::clamp(p, 0.0, 1.0) : p - glm::floor(p);
+  std::array<float, 4> texel{};
+  system->texture(decoded ? image.color : image.data, nullptr, opt, static_cast<float>(q.x),
+                  static_cast<float>(q.y), static_cast<float>(std::min(width.x, 1.0)), 0, 0,
+                  static_cast<float>(std::min(width.y, 1.0)), image.channels, texel.data());
+  return as_rgba(texel.data(), image.channels);
+}
+
+TextureStore::TextureStore(std::span<const Texture> textures, const TextureOptions& options)
+    : impl_(std::make_unique<Impl>()) {
+  impl_->options = options;
+  impl_->textures.assign(textures.begin(), textures.end());
+  impl_->entries.resize(textures.size());
+  const auto is_image = [](const Texture& t) { return std::holds_alternative<ImageTexture>(t); };
+  if (std::any_of(textures.begin(), textures.end(), is_image)) impl_->start_system();
+
+  std::vector<std::optional<TextureError>> errors(textures.size());
+  tbb::parallel_for(std::size_t{0}, textures.size(), [&](std::size_t i) {
+    Entry& entry = impl_->entries[i];
+    if (const auto* checker = std::get_if<CheckerTexture>(&textures[i])) {
+      entry = {true, checker->scale, DVec2{0}, Vec4{checker->a, 1}, Vec4{checker->b, 1}, {}};
+      return;
+    }
+    const auto& image = std::get<ImageTexture>(textures[i]);
+    entry.scale = image.scale;
+    entry.offset = image.offset;
+    try {
+      entry.image = impl_->load(static_cast<TextureId>(i), image);
+    } catch (const TextureError& error) {
+      errors[i] = error;
+    }
+  });
+  for (const auto& error : errors) {
+    if (error) throw TextureError(*error);
+  }
+}
+
+TextureStore::~TextureStore() = default;
+TextureStore::TextureStore(TextureStore&&) noexcept = default;
+TextureStore& TextureStore::operator=(TextureStore&&) noexcept = default;
+
+Vec4 TextureStore::sample(TextureId id, Vec2 uv, TextureUse use, Vec2 footprint) const noexcept {
+  const Entry& entry = impl_->entries[id];
+  const glm::dvec2 st = glm::dvec2{uv} * entry.scale + entry.offset;
+  if (!std::isfinite(st.x) || !std::isfinite(st.y)) return Vec4{0};
+  const glm::dvec2 width = glm::abs(glm::dvec2{footprint} * entry.scale);
+  if (entry.checker) return sample_checker(entry, st, width);
+  // A file of no declared encoding holds colours or data: it depends on what it is used for.
+  const bool declared =
+      std::get<ImageTexture>(impl_->textures[id]).color_space != ColorSpace::automatic;
+  return impl_->sample_image(entry.image, declared || use == TextureUse::color, st, width);
+}
+
+Vec3 TextureStore::color(const ColorInput& input, Vec2 uv, float footprint) const noexcept {
+  if (input.texture == no_texture) return input.value;
+  return input.value * Vec3{sample(input.texture, uv, TextureUse::color, Vec2{footprint})};
+}
+
+float TextureStore::scalar(const ScalarInput& input, Vec2 uv, float footprint) const noexcept {
+  if (input.texture == no_texture) return input.value;
+  return input.value * sample(input.texture, uv, TextureUse::data,
+                              Vec2{footprint})[std::clamp(input.channel, 0, 3)];
+}
+
+TextureImage TextureStore::image(TextureId id) const {
+  const auto* texture = std::get_if<ImageTexture>(&impl_->textures[id]);
+  if (!texture) throw TextureError(id, "a checkerboard is no image");
+  OpenImage opened = open_image(id, *texture, impl_->options);
+  const auto channels = static_cast<std::size_t>(opened.spec.nchannels);
+  const auto width = static_cast<std::size_t>(opened.spec.width);
+  const auto height = static_cast<std::size_t>(opened.spec.height);
+  std::vector<float> texels(width * height * channels);
+  if (!opened.input->read_image(0, 0, 0, opened.spec.nchannels, OIIO::TypeFloat, texels.data())) {
+    throw TextureError(id, described(texture->file, opened.input->geterror()));
+  }
+  if (impl_->entries[id].image.srgb) {
+    decode_srgb(texels.data(), width * height, opened.spec.nchannels, opened.spec.alpha_channel);
+  }
+  TextureImage image{opened.spec.width, opened.spec.height, {}};
+  image.pixels.resize(width * height);
+  for (std::size_t i = 0; i < image.pixels.size(); ++i) {
+    image.pixels[i] = Vec3{as_rgba(&texels[i * channels], std::min(opened.spec.nchannels, 4))};
+  }
+  return image;
+}
+
+}  // namespace pah

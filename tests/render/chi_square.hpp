@@ -1,0 +1,47 @@
+// Pearson's chi-square test of a sampler against the density that it claims.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <pah/geometry/vec.hpp>
+#include <random>
+
+namespace pah::test {
+
+using Rng = std::mt19937_64;
+
+inline float uniform(Rng& rng) { return static_cast<float>(rng() >> 40) * 0x1p-24F; }
+inline Vec2 uniform2(Rng& rng) {
+  const float x = uniform(rng);
+  return {x, uniform(rng)};
+}
+
+struct ChiSquare {
+  double statistic = 0;
+  int degrees = 0;
+  double p = 1;         // the chance of a statistic at least as large if the density is right
+  double integral = 0;  // of the density over the domain
+};
+
+// A rectangle in which points are drawn, and the density per its area.
+struct Domain {
+  DVec2 min, max;
+};
+using PointSampler = std::function<std::optional<DVec2>(Rng&)>;
+using PointDensity = std::function<double(const DVec2&)>;
+
+// 10 x 20 cells, those that expect fewer than 5 of the points pooled. Points that the sampler does
+// not deliver have a cell of their own, which expects what the density's integral lacks.
+ChiSquare chi_square(const Domain& domain, const PointSampler& sample, const PointDensity& density,
+                     int count, Rng& rng);
+
+// Directions, in cells of (cos theta, phi).
+using DirectionSampler = std::function<std::optional<Vec3>(Rng&)>;
+using DirectionDensity = std::function<double(const Vec3&)>;
+ChiSquare chi_square_sphere(const DirectionSampler& sample, const DirectionDensity& density,
+                            int count, Rng& rng);
+
+// The bound under which the smallest of `tests` p-values falls with a chance of 1 % (Sidak).
+double sidak_level(int tests);
+
+}  // namespace pah::test
