@@ -1,48 +1,35 @@
-// What accelerators share: the loops over a batch, once with and once without counting.
+// What accelerators share: rays are prepared some at a time, so that they stay in the cache until
+// they are traced, and kernels are chosen once for many.
 #pragma once
 
-#include <pah/accel/accelerator.hpp>
+#include <algorithm>
+#include <array>
+#include <span>
 
 #include "geometry/ray_box.hpp"
 
 namespace pah {
 
-struct NoCounter {
-  void node() {}
-  void triangles(std::uint64_t) {}
-};
+inline constexpr std::size_t batch_size = 64;
 
-struct TraversalCounter {
-  TraversalCounts counts;
-  void node() { ++counts.nodes; }
-  void triangles(std::uint64_t n) { counts.triangles += n; }
-};
-
-// Calls `body(counter)` with a counter that costs nothing unless counts are asked for.
-template <typename Body>
-void with_counter(TraversalCounts* counts, const Body& body) {
-  if (counts == nullptr) {
-    NoCounter none;
-    body(none);
-    return;
-  }
-  TraversalCounter counter;
-  body(counter);
-  counts->nodes += counter.counts.nodes;
-  counts->triangles += counter.counts.triangles;
-}
-
-// `nearest(prepared ray, best)` updates a Hit that starts as no triangle at t_max.
-template <typename Nearest>
-void closest_hits(std::span<const Ray> rays, std::span<Hit> hits, const Aabb& scene,
-                  const Nearest& nearest) {
-  for (std::size_t i = 0; i < rays.size(); ++i) {
-    const PreparedRay ray = prepare(rays[i], scene);
-    Hit best;
-    best.t = ray.t_max;
-    nearest(ray, best);
-    hits[i] = best.valid() ? best : Hit{};
+// Calls `trace(prepared rays, first)` for successive runs of `rays`.
+template <typename Trace>
+void for_batches(std::span<const Ray> rays, const Aabb& scene, const Trace& trace) {
+  std::array<PreparedRay, batch_size> prepared;
+  for (std::size_t first = 0; first < rays.size(); first += batch_size) {
+    const std::size_t count = std::min(batch_size, rays.size() - first);
+    for (std::size_t i = 0; i < count; ++i) prepared[i] = prepare(rays[first + i], scene);
+    trace(std::span<const PreparedRay>(prepared.data(), count), first);
   }
 }
+
+// A search starts with no triangle at t_max and ends, if none is found, at infinity.
+[[nodiscard]] inline Hit nothing_yet(const PreparedRay& ray) {
+  Hit hit;
+  hit.t = ray.t_max;
+  return hit;
+}
+
+[[nodiscard]] inline Hit finished(const Hit& hit) { return hit.valid() ? hit : Hit{}; }
 
 }  // namespace pah

@@ -1,4 +1,5 @@
 #include <array>
+#include <pah/accel/accelerator.hpp>
 
 #include "accel/batch.hpp"
 #include "geometry/ray_triangle.hpp"
@@ -32,31 +33,33 @@ class BruteForce final : public Accelerator {
 
   void closest_hit(std::span<const Ray> rays, std::span<Hit> hits,
                    TraversalCounts* counts) const override {
-    with_counter(counts, [&](auto& counter) {
-      closest_hits(rays, hits, bounds_, [&](const PreparedRay& ray, Hit& best) {
-        counter.triangles(triangles_.size());
-        visit(ray, [&](std::size_t i) {
-          update_nearest(ray, triangles_[i], static_cast<std::uint32_t>(i), best);
-          return false;
-        });
+    for (std::size_t k = 0; k < rays.size(); ++k) {
+      const PreparedRay ray = prepare(rays[k], bounds_);
+      Hit best = nothing_yet(ray);
+      visit(ray, [&](std::size_t i) {
+        update_nearest(ray, triangles_[i], static_cast<std::uint32_t>(i), best);
+        return false;
       });
-    });
+      hits[k] = finished(best);
+      if (counts != nullptr) counts->triangles += triangles_.size();
+    }
   }
 
   void occluded(std::span<const Ray> rays, std::span<std::uint8_t> results,
                 TraversalCounts* counts) const override {
-    with_counter(counts, [&](auto& counter) {
-      for (std::size_t k = 0; k < rays.size(); ++k) {
-        const PreparedRay ray = prepare(rays[k], bounds_);
-        results[k] = 0;
-        visit(ray, [&](std::size_t i) {
-          counter.triangles(1);
-          TriangleHit hit;
-          if (intersect_triangle(ray, triangles_[i], ray.t_max, hit)) results[k] = 1;
-          return results[k] != 0;
-        });
-      }
-    });
+    for (std::size_t k = 0; k < rays.size(); ++k) {
+      const PreparedRay ray = prepare(rays[k], bounds_);
+      std::size_t tests = triangles_.size();
+      results[k] = 0;
+      visit(ray, [&](std::size_t i) {
+        TriangleHit hit;
+        if (!intersect_triangle(ray, triangles_[i], ray.t_max, hit)) return false;
+        tests = i + 1;
+        results[k] = 1;
+        return true;
+      });
+      if (counts != nullptr) counts->triangles += tests;
+    }
   }
 
   [[nodiscard]] AcceleratorMemory memory() const override { return {}; }

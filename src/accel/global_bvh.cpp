@@ -1,10 +1,8 @@
-#include <tbb/parallel_for.h>
-
 #include <numeric>
+#include <pah/accel/accelerator.hpp>
 
 #include "accel/batch.hpp"
-#include "bvh/build.hpp"
-#include "bvh/bvh.hpp"
+#include "bvh/build_bvh.hpp"
 
 namespace pah {
 
@@ -12,31 +10,27 @@ namespace {
 
 class GlobalBvh final : public Accelerator {
  public:
-  explicit GlobalBvh(const Triangles& triangles) {
-    std::vector<Aabb> boxes(triangles.size());
-    tbb::parallel_for(std::size_t{0}, boxes.size(),
-                      [&](std::size_t i) { boxes[i] = triangles[i].bounds(); });
+  explicit GlobalBvh(const Triangles& triangles) : bounds_(bounds_of(triangles)) {
     std::vector<std::uint32_t> all(triangles.size());
     std::iota(all.begin(), all.end(), 0U);
-    bvh_ = Bvh(build_tree(std::span<const Aabb>(boxes)), triangles, all);
-    bounds_ = bounds_of(triangles);
+    bvh_ = build_bvh(triangles, all);
   }
 
   void closest_hit(std::span<const Ray> rays, std::span<Hit> hits,
                    TraversalCounts* counts) const override {
-    with_counter(counts, [&](auto& counter) {
-      closest_hits(rays, hits, bounds_, [&](const PreparedRay& ray, Hit& best) {
-        pah::closest_hit(bvh_, ray, best, counter);
-      });
+    for_batches(rays, bounds_, [&](std::span<const PreparedRay> batch, std::size_t first) {
+      const std::span<Hit> found = hits.subspan(first, batch.size());
+      std::transform(batch.begin(), batch.end(), found.begin(), nothing_yet);
+      closest_hits(bvh_, batch, found, counts);
+      std::transform(found.begin(), found.end(), found.begin(), finished);
     });
   }
 
   void occluded(std::span<const Ray> rays, std::span<std::uint8_t> results,
                 TraversalCounts* counts) const override {
-    with_counter(counts, [&](auto& counter) {
-      for (std::size_t i = 0; i < rays.size(); ++i) {
-        results[i] = pah::occluded(bvh_, prepare(rays[i], bounds_), counter) ? 1 : 0;
-      }
+    std::fill_n(results.begin(), rays.size(), std::uint8_t{0});
+    for_batches(rays, bounds_, [&](std::span<const PreparedRay> batch, std::size_t first) {
+      pah::occluded(bvh_, batch, results.subspan(first, batch.size()), counts);
     });
   }
 

@@ -1,139 +1,84 @@
-// A BVH laid out for traversal, and the traversal itself.
+// A BVH as it is traversed: eight children a node, tested side by side; triangles in blocks of
+// four.
+//
+// It is collapsed from a BinaryTree (Wald, Benthin and Boulos, "Getting Rid of Packets", RT 2008).
+// Kernels are compiled for several instruction sets and chosen at run time (traversal.cpp); all do
+// the same roundings, so that all give the same answers.
 #pragma once
 
+#include <array>
+#include <pah/bvh/traversal_counts.hpp>
 #include <pah/geometry/triangles.hpp>
 #include <span>
 #include <vector>
 
 #include "bvh/binary_tree.hpp"
-#include "geometry/ray_triangle.hpp"
+#include "geometry/ray_box.hpp"
 
 namespace pah {
 
-// A vertex copy per triangle, in leaf order, so that a leaf reads one run of memory.
-struct LeafTriangle {
-  Triangle triangle;
-  std::uint32_t index;  // of the triangle in the scene
-};
-
-// An inner node: the boxes of both children, so that one cache line decides both.
-struct alignas(64) BvhNode {
-  // [axis] = {min of left, min of right, max of left, max of right}
-  float planes[3][4];
-  std::uint32_t first[2];  // leaf: of the triangles; inner node: its index
-  std::uint32_t count[2];  // of triangles; 0 for an inner node
-};
-static_assert(sizeof(BvhNode) == 64);
-
-class Bvh {
+// What a node names as a child: an inner node, or a leaf as a run of blocks.
+class ChildRef {
  public:
-  Bvh() = default;
-  // `subset`: which triangle of the scene the tree's item i is.
-  Bvh(const BinaryTree& tree, const Triangles& triangles, std::span<const std::uint32_t> subset);
+  static constexpr std::uint32_t max_leaf = 32;           // triangles
+  static constexpr std::uint32_t max_blocks = 1U << 26U;  // of four triangles
 
-  [[nodiscard]] bool empty() const { return nodes_.empty(); }
-  [[nodiscard]] std::span<const BvhNode> nodes() const { return nodes_; }
-  [[nodiscard]] std::span<const LeafTriangle> triangles() const { return triangles_; }
-  [[nodiscard]] std::uint64_t memory_bytes() const {
-    return nodes_.capacity() * sizeof(BvhNode) + triangles_.capacity() * sizeof(LeafTriangle);
+  ChildRef() = default;
+  static ChildRef inner(std::uint32_t node) { return ChildRef(node); }
+  static ChildRef leaf(std::uint32_t first_block, std::uint32_t triangles) {
+    return ChildRef(1U << 31U | first_block << 5U | (triangles - 1));
   }
+  [[nodiscard]] bool is_leaf() const { return bits_ >> 31U != 0; }
+  [[nodiscard]] std::uint32_t node() const { return bits_; }
+  [[nodiscard]] std::uint32_t first_block() const { return bits_ >> 5U & (max_blocks - 1); }
+  [[nodiscard]] std::uint32_t triangles() const { return (bits_ & (max_leaf - 1)) + 1; }
 
  private:
-  std::vector<BvhNode> nodes_;  // the root first; its right child is empty if the tree is one leaf
-  std::vector<LeafTriangle> triangles_;
+  explicit ChildRef(std::uint32_t bits) : bits_(bits) {}
+  std::uint32_t bits_;  // without a value at first: traversal stacks hold hundreds
 };
 
-namespace detail {
+struct alignas(64) BvhNode {
+  static constexpr std::size_t width = 8;
+  float planes[3][2][width];  // [axis][min, max][child]; unused children have empty boxes
+  ChildRef children[width];
+};
 
-// Visits what the ray's interval [0, limit()] meets, near children first. `leaf(first, count)`
-// returns true to stop.
-template <typename Limit, typename Leaf, typename Counter>
-void traverse(std::span<const BvhNode> nodes, const PreparedRay& ray, const Limit& limit,
-              const Leaf& leaf, Counter& counter) {
-  struct Entry {
-    std::uint32_t first;
-    std::uint32_t count;
-    float near;
-  };
-  if (nodes.empty()) return;
-  Entry stack[max_depth + 1];
-  int size = 0;
-  Entry current{0, 0, 0};
-  for (;;) {
-    counter.node();
-    bool descended = false;
-    if (current.count > 0) {
-      if (leaf(current.first, current.count)) return;
-    } else {
-      const BvhNode& node = nodes[current.first];
-      float near[2] = {0, 0};
-      float far[2] = {limit(), limit()};
-      for (int axis = 0; axis < 3; ++axis) {
-        const float* near_plane = node.planes[axis] + 2 * ray.negative[axis];
-        const float* far_plane = node.planes[axis] + 2 - 2 * ray.negative[axis];
-        for (int side = 0; side < 2; ++side) {
-          near[side] =
-              std::max(near[side], (near_plane[side] - ray.near_origin[axis]) * ray.inverse[axis]);
-          far[side] =
-              std::min(far[side], (far_plane[side] - ray.far_origin[axis]) * ray.inverse[axis]);
-        }
-      }
-      const bool left = near[0] <= far[0];
-      const bool right = near[1] <= far[1];
-      if (left && right) {
-        const int first = near[1] < near[0] ? 1 : 0;
-        const int second = 1 - first;
-        stack[size++] = {node.first[second], node.count[second], near[second]};
-        current = {node.first[first], node.count[first], near[first]};
-        descended = true;
-      } else if (left || right) {
-        const int side = left ? 0 : 1;
-        current = {node.first[side], node.count[side], near[side]};
-        descended = true;
-      }
-    }
-    if (descended) continue;
-    // Equal distance is visited: the lower index may win there.
-    do {
-      if (size == 0) return;
-      current = stack[--size];
-    } while (current.near > limit());
+struct alignas(16) TriangleBlock {
+  static constexpr std::size_t width = 4;
+  float vertices[3][3][width];  // [vertex][axis][triangle]; the last triangle fills a short block
+  std::uint32_t indices[width];
+
+  [[nodiscard]] Triangle triangle(std::size_t lane) const {
+    const auto vertex = [&](std::size_t k) {
+      return Vec3{vertices[k][0][lane], vertices[k][1][lane], vertices[k][2][lane]};
+    };
+    return {vertex(0), vertex(1), vertex(2)};
   }
-}
+};
 
-}  // namespace detail
+struct Bvh {
+  std::vector<BvhNode> nodes;  // the root first; empty if there are no triangles
+  std::vector<TriangleBlock> blocks;
 
-// The nearest of `best` and the BVH's triangles.
-template <typename Counter>
-void closest_hit(const Bvh& bvh, const PreparedRay& ray, Hit& best, Counter& counter) {
-  detail::traverse(
-      bvh.nodes(), ray, [&] { return best.t; },
-      [&](std::uint32_t first, std::uint32_t count) {
-        counter.triangles(count);
-        for (const LeafTriangle& leaf : bvh.triangles().subspan(first, count)) {
-          update_nearest(ray, leaf.triangle, leaf.index, best);
-        }
-        return false;
-      },
-      counter);
-}
+  [[nodiscard]] std::uint64_t memory_bytes() const {
+    return nodes.capacity() * sizeof(BvhNode) + blocks.capacity() * sizeof(TriangleBlock);
+  }
+};
 
-// Whether the ray hits any triangle.
-template <typename Counter>
-[[nodiscard]] bool occluded(const Bvh& bvh, const PreparedRay& ray, Counter& counter) {
-  bool hit_any = false;
-  detail::traverse(
-      bvh.nodes(), ray, [&] { return ray.t_max; },
-      [&](std::uint32_t first, std::uint32_t count) {
-        counter.triangles(count);
-        TriangleHit hit;
-        for (const LeafTriangle& leaf : bvh.triangles().subspan(first, count)) {
-          if (intersect_triangle(ray, leaf.triangle, ray.t_max, hit)) return hit_any = true;
-        }
-        return false;
-      },
-      counter);
-  return hit_any;
-}
+// Eight-wide nodes of a tree whose leaves hold at most ChildRef::max_leaf triangles. Item i of the
+// tree is triangle subset[i] of the scene. Inner nodes with the largest boxes are opened first:
+// `areas` has the measure of every node's box.
+[[nodiscard]] Bvh collapse(const BinaryTree& tree, std::span<const float> areas,
+                           const Triangles& triangles, std::span<const std::uint32_t> subset);
+
+// hits[i] becomes the nearest of itself and the BVH's triangles; it is asked for as no triangle at
+// the t to search up to.
+void closest_hits(const Bvh& bvh, std::span<const PreparedRay> rays, std::span<Hit> hits,
+                  TraversalCounts* counts);
+
+// results[i] becomes 1 if ray i hits anything; rays whose result is 1 already are skipped.
+void occluded(const Bvh& bvh, std::span<const PreparedRay> rays, std::span<std::uint8_t> results,
+              TraversalCounts* counts);
 
 }  // namespace pah

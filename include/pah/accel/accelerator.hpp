@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <pah/bvh/traversal_counts.hpp>
 #include <pah/geometry/ray.hpp>
 #include <pah/geometry/triangles.hpp>
 #include <span>
@@ -14,12 +15,6 @@
 #include <vector>
 
 namespace pah {
-
-// How much work a batch was. Counting is compiled out where no counts are asked for.
-struct TraversalCounts {
-  std::uint64_t nodes = 0;      // inner nodes and leaves visited
-  std::uint64_t triangles = 0;  // ray-triangle tests
-};
 
 struct AcceleratorMemory {
   std::uint64_t global_bvh = 0;  // bytes
