@@ -6,7 +6,7 @@ cd "$(dirname "${BASH_SOURCE[0]}")"
 # openimageio-tools: Debian's CMake package of OpenImageIO refuses to load without its programs.
 packages=(
   g++ cmake ninja-build ccache pkg-config
-  libopenimageio-dev openimageio-tools libassimp-dev libyaml-cpp-dev libglm-dev libtbb-dev
+  libopenimageio-dev openimageio-tools libassimp-dev libyaml-cpp-dev libglm-dev libtbb-dev libhwy-dev
   libcli11-dev libfmt-dev nlohmann-json3-dev
   catch2 libcgal-dev clang-format
 )
