@@ -1,0 +1,38 @@
+// Rays from the camera through a pixel.
+#pragma once
+
+#include <pah/geometry/ray.hpp>
+#include <pah/scene/camera.hpp>
+#include <pah/scene/settings.hpp>
+
+#include "render/sampler.hpp"
+
+namespace pah {
+
+// A ray of unit direction and the cone that its pixel fills about it: Akenine-Moeller et al.,
+// "Texture Level of Detail Strategies for Real-Time Ray Tracing" (Ray Tracing Gems, 2019).
+struct CameraRay {
+  Ray ray;
+  float cone_width = 0;   // at the origin, a length
+  float cone_spread = 0;  // growth per unit of length
+};
+
+class CameraRays {
+ public:
+  CameraRays(const Camera& camera, const FilmSettings& film);
+
+  // The filter is importance-sampled: every sample belongs to its pixel, with weight 1.
+  [[nodiscard]] CameraRay generate(int x, int y, Sampler& sampler) const;
+
+ private:
+  PixelFilter filter_;
+  float filter_radius_;
+  float width_, height_;  // pixels
+  Vec3 position_, forward_, right_, up_;
+  float half_width_, half_height_;  // of the picture, at distance 1 if perspective
+  bool perspective_ = true;
+  float aperture_radius_ = 0;
+  float focus_distance_ = 1;
+};
+
+}  // namespace pah

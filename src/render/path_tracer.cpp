@@ -1,0 +1,426 @@
+#include "render/path_tracer.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "render/material_eval.hpp"
+
+namespace pah {
+
+// A surface as its material makes it at one point, seen from one direction.
+struct Scattering {
+  Bsdf bsdf;
+  ShadingFrame frame;
+  Vec3 wo{0};           // in the frame
+  Vec3 world_wo{0};     // towards where the path came from
+  bool smooth = false;  // some lobe is no delta
+  bool tilted = false;  // the shading normal is not the geometric one
+  LitPoint lit;
+
+  [[nodiscard]] bool consistent(const Vec3& geometric, const Vec3& world_wi, const Vec3& wi) const {
+    const bool reflects = wo.z * wi.z > 0;
+    return reflects == (glm::dot(geometric, world_wo) * glm::dot(geometric, world_wi) > 0);
+  }
+};
+
+namespace {
+
+// A path through so many masked surfaces in a row is stuck between two of them.
+constexpr std::uint32_t most_passes = 4096;
+// Groups of shadow segments beyond this many hold several lights.
+constexpr std::size_t most_keys = 4096;
+
+// Veach's power heuristic with exponent 2; safe for infinite densities.
+float power_heuristic(float own, float other) {
+  if (!(own > 0)) return 0;
+  const float ratio = other / own;
+  return 1 / (1 + ratio * ratio);
+}
+
+bool acceptable(const Vec3& color) {
+  const float sum = color.x + color.y + color.z;
+  return sum < std::numeric_limits<float>::infinity() && color.x >= 0 && color.y >= 0 &&
+         color.z >= 0;
+}
+
+bool is_black(const Vec3& color) { return color == Vec3(0); }
+
+bool is_masked(const Material& material) {
+  return material.opacity.value != 1 || material.opacity.texture != no_texture;
+}
+
+// The footprint of a ray's cone on a surface, in texture coordinates: the ellipse's axes averaged
+// geometrically.
+float footprint_on(const SurfaceInteraction& at, const Vec3& direction, float width) {
+  const float cosine = std::abs(glm::dot(at.point.normal, direction));
+  return cosine > 0 ? at.uv_per_length * width / std::sqrt(cosine) : 0;
+}
+
+Scattering scatter_at(const World& world, const TextureStore& textures,
+                      const SurfaceInteraction& at, const Vec3& wo, float footprint) {
+  const Material& material = world.materials[at.surface->material];
+  Vec3 normal = at.normal;
+  bool tilted = at.smooth;
+  if (material.normal_map != no_texture) {
+    const Vec3 mapped = mapped_normal(material, textures, at.uv, footprint);
+    normal = glm::normalize(make_frame(normal, at.tangent).world_from_local(mapped));
+    tilted = true;
+  }
+  if (tilted) normal = visible_normal(normal, at.point.normal, wo);
+
+  Scattering s;
+  s.bsdf = resolve_material(material, textures, at.uv, footprint);
+  s.frame = make_frame(normal);
+  s.world_wo = wo;
+  s.wo = s.frame.local_from_world(wo);
+  s.smooth = has_smooth_lobes(s.bsdf);
+  s.tilted = tilted;
+  s.lit = {at.point.position, s.wo.z < 0 ? -normal : normal,
+           std::holds_alternative<GlassBsdf>(s.bsdf)};
+  return s;
+}
+
+}  // namespace
+
+PathTracer::PathTracer(const World& world, const Accelerator& accelerator,
+                       const TextureStore& textures, const FilmSettings& film,
+                       const RenderSettings& settings, bool count_traversal)
+    : world_(world),
+      accelerator_(accelerator),
+      textures_(textures),
+      settings_(settings),
+      camera_(world.camera, film),
+      lights_(world, textures),
+      keys_(static_cast<std::uint32_t>(std::clamp<std::size_t>(lights_.size(), 1, most_keys))),
+      count_traversal_(count_traversal) {
+  for (const Material& material : world.materials) {
+    masked_.push_back(is_masked(material) ? 1 : 0);
+  }
+  for (const Surface& surface : world.surfaces) {
+    any_masked_ = any_masked_ || masked_[surface.material] != 0;
+  }
+}
+
+PathBatch PathTracer::make_batch(std::size_t capacity) const { return {capacity, keys_}; }
+
+TraversalCounts* PathTracer::traversal(PathBatch& batch, RayKind kind) const {
+  return count_traversal_ ? &batch.counts.traversal[static_cast<std::size_t>(kind)] : nullptr;
+}
+
+void PathTracer::trace(const PixelRect& tile, int first, int count, PathBatch& batch,
+                       Film& film) const {
+  generate(tile, first, count, batch);
+  RayKind kind = RayKind::camera;
+  while (batch.active > 0) {
+    intersect(batch, kind);
+    shade(batch);
+    resolve_shadows(batch);
+    kind = RayKind::bounce;
+  }
+  accumulate(tile, count, batch, film);
+}
+
+void PathTracer::generate(const PixelRect& tile, int first, int count, PathBatch& batch) const {
+  std::size_t i = 0;
+  for (int y = tile.y0; y < tile.y1; ++y) {
+    for (int x = tile.x0; x < tile.x1; ++x) {
+      for (int k = first; k < first + count; ++k, ++i) {
+        Path path;
+        path.sampler = Sampler(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y),
+                               static_cast<std::uint32_t>(k), settings_.seed);
+        path.slot = static_cast<std::uint32_t>(i);
+        const CameraRay camera_ray = camera_.generate(x, y, path.sampler);
+        path.cone_width = camera_ray.cone_width;
+        path.cone_spread = camera_ray.cone_spread;
+        batch.paths[i] = path;
+        batch.rays[i] = camera_ray.ray;
+        batch.samples[i] = {};
+      }
+    }
+  }
+  batch.active = i;
+}
+
+void PathTracer::intersect(PathBatch& batch, RayKind kind) const {
+  accelerator_.closest_hit({batch.rays.data(), batch.active}, {batch.hits.data(), batch.active},
+                           traversal(batch, kind));
+  batch.counts.rays[static_cast<std::size_t>(kind)] += batch.active;
+}
+
+// Survivors move up, so that the next rays are again without gaps.
+void PathTracer::shade(PathBatch& batch) const {
+  std::size_t kept = 0;
+  batch.shadows = 0;
+  for (std::size_t i = 0; i < batch.active; ++i) {
+    if (!shade_path(batch.paths[i], batch.rays[i], batch.hits[i], batch)) continue;
+    if (kept != i) {
+      batch.paths[kept] = batch.paths[i];
+      batch.rays[kept] = batch.rays[i];
+    }
+    ++kept;
+  }
+  batch.active = kept;
+}
+
+bool PathTracer::shade_path(Path& path, Ray& ray, const Hit& hit, PathBatch& batch) const {
+  PathSample& sample = batch.samples[path.slot];
+  if (!hit.valid()) {
+    add_distant(path, ray, sample);
+    return false;
+  }
+  const SurfaceInteraction at = interact(world_, hit);
+  path.cone_width += path.cone_spread * hit.t;
+  if (path.depth == 0) path.length += hit.t;
+  const float footprint = footprint_on(at, ray.direction, path.cone_width);
+
+  if (any_masked_ && masked_[at.surface->material] != 0) {
+    const float stopped =
+        opacity(world_.materials[at.surface->material], textures_, at.uv, footprint);
+    if (path.sampler.next_1d() >= stopped) {
+      ray = spawn_ray(at.point, ray.direction);
+      return ++path.passes < most_passes;
+    }
+  }
+  if (at.surface->light != no_light) add_emission(path, ray, hit, at, sample);
+  if (path.depth == 0) sample.depth = path.length;
+  if (path.depth >= settings_.max_depth) return false;
+  ++path.depth;
+
+  const Scattering scattering = scatter_at(world_, textures_, at, -ray.direction, footprint);
+  if (scattering.smooth) {
+    if (!path.features_found) {
+      sample.albedo = albedo(scattering.bsdf);
+      sample.normal = scattering.lit.normal;
+      path.features_found = true;
+    }
+    gather_shadow(path, at, scattering, batch);
+  }
+  return scatter(path, ray, at, scattering);
+}
+
+// How much of the light that a ray met by chance counts, given that next-event estimation might
+// have sent it: `light_pdf` is the density of that, were this light chosen.
+float PathTracer::emission_weight(const Path& path, float light_pdf, LightId light) const {
+  if (path.bsdf_pdf == 0 || settings_.strategy == Strategy::bsdf) return 1;
+  if (settings_.strategy == Strategy::nee) return 0;
+  const float chosen = lights_.sampler().probability(path.from, light);
+  return power_heuristic(path.bsdf_pdf, chosen * light_pdf);
+}
+
+void PathTracer::add_distant(const Path& path, const Ray& ray, PathSample& sample) const {
+  for (const LightId light : lights_.visible_distant()) {
+    const Vec3 radiance = lights_.distant_radiance(light, ray.direction);
+    if (is_black(radiance)) continue;
+    const float pdf = path.bsdf_pdf > 0 ? lights_.pdf_distant(light, path.from, ray.direction) : 0;
+    sample.radiance += path.throughput * radiance * emission_weight(path, pdf, light);
+  }
+}
+
+void PathTracer::add_emission(const Path& path, const Ray& ray, const Hit& hit,
+                              const SurfaceInteraction& at, PathSample& sample) const {
+  const LightId light = at.surface->light;
+  const Vec3 radiance = lights_.emitted(light, at.point.normal, -ray.direction);
+  if (is_black(radiance)) return;
+  const float pdf = path.bsdf_pdf > 0 ? lights_.pdf_area(light, path.from, hit.triangle,
+                                                         at.point.position, at.point.normal)
+                                      : 0;
+  sample.radiance += path.throughput * radiance * emission_weight(path, pdf, light);
+}
+
+// Next-event estimation: one light, one direction, one segment to be resolved with the others.
+void PathTracer::gather_shadow(Path& path, const SurfaceInteraction& at,
+                               const Scattering& scattering, PathBatch& batch) const {
+  if (lights_.sampler().empty()) return;
+  const auto choice = lights_.sampler().choose(scattering.lit, path.sampler.next_1d());
+  const float u = path.sampler.next_1d();
+  const Vec2 u2 = path.sampler.next_2d();
+  if (!choice) return;
+  const auto drawn = lights_.sample(choice->light, scattering.lit, u, u2);
+  if (!drawn || (settings_.strategy == Strategy::bsdf && !drawn->delta)) return;
+
+  const Vec3 wi = scattering.frame.local_from_world(drawn->direction);
+  if (!scattering.consistent(at.point.normal, drawn->direction, wi)) return;
+  Vec3 value = evaluate(scattering.bsdf, scattering.wo, wi);
+  if (is_black(value)) return;
+  if (scattering.tilted && scattering.wo.z * wi.z > 0) {
+    value *= terminator_fade(scattering.frame.z, at.point.normal, drawn->direction);
+  }
+  if (any_masked_ && drawn->triangle != no_triangle) {
+    value *= opacity_at(drawn->triangle, drawn->barycentrics, 0);
+  }
+  const float light_pdf = choice->probability * drawn->pdf;
+  float weight = 1;
+  if (settings_.strategy == Strategy::mis && !drawn->delta) {
+    weight = power_heuristic(light_pdf, pdf(scattering.bsdf, scattering.wo, wi));
+  }
+  const Vec3 contribution = path.throughput * value * drawn->radiance * (weight / light_pdf);
+  if (is_black(contribution)) return;
+
+  batch.shadow_tasks[batch.shadows] = {contribution, path.slot};
+  if (drawn->distant) {
+    Ray& ray = batch.shadow_rays[batch.shadows];
+    ray = spawn_ray(at.point, drawn->direction);
+    ray.bundle = choice->light;
+  } else {
+    batch.shadow_rays[batch.shadows] =
+        spawn_segment(at.point, drawn->target, drawn->target_error, choice->light);
+  }
+  ++batch.shadows;
+}
+
+bool PathTracer::scatter(Path& path, Ray& ray, const SurfaceInteraction& at,
+                         const Scattering& scattering) const {
+  const float u = path.sampler.next_1d();
+  const Vec2 u2 = path.sampler.next_2d();
+  const auto drawn = sample(scattering.bsdf, scattering.wo, u, u2);
+  if (!drawn) return false;
+  // Past the last interaction a ray is worth sending only for the light that it may meet.
+  if (path.depth >= settings_.max_depth) {
+    const bool counts = drawn->specular || settings_.strategy != Strategy::nee;
+    if (!counts || !lights_.any_visible()) return false;
+  }
+  const Vec3 direction = glm::normalize(scattering.frame.world_from_local(drawn->wi));
+  if (!scattering.consistent(at.point.normal, direction, drawn->wi)) return false;
+  path.throughput *= drawn->weight;
+  if (scattering.tilted && !drawn->specular && !drawn->transmission) {
+    path.throughput *= terminator_fade(scattering.frame.z, at.point.normal, direction);
+  }
+  if (is_black(path.throughput)) return false;
+  path.bsdf_pdf = drawn->specular ? 0 : drawn->pdf;
+  path.from = scattering.lit;
+  if (const auto* glass = std::get_if<GlassBsdf>(&scattering.bsdf);
+      glass != nullptr && drawn->transmission) {
+    const float eta = scattering.wo.z > 0 ? glass->eta : 1 / glass->eta;
+    path.eta_scale *= eta * eta;
+  }
+  // A scattered ray stands for the directions near it: a quarter of the angle that its density
+  // spans, as seen from the surface.
+  if (!drawn->specular) {
+    path.cone_spread += 0.25F / std::sqrt(std::numbers::pi_v<float> * drawn->pdf);
+  }
+  if (path.depth >= settings_.roulette_depth) {
+    const Vec3 weight = path.throughput * path.eta_scale;
+    const float survival = std::max({weight.x, weight.y, weight.z});
+    if (survival < 1) {
+      if (path.sampler.next_1d() >= survival) return false;
+      path.throughput /= survival;
+    }
+  }
+  ray = spawn_ray(at.point, direction);
+  return true;
+}
+
+void PathTracer::accumulate(const PixelRect& tile, int count, PathBatch& batch, Film& film) const {
+  std::size_t i = 0;
+  for (int y = tile.y0; y < tile.y1; ++y) {
+    for (int x = tile.x0; x < tile.x1; ++x) {
+      FilmPixel& pixel = film.at(x, y);
+      for (int k = 0; k < count; ++k, ++i) {
+        const PathSample& sample = batch.samples[i];
+        if (!acceptable(sample.radiance)) {
+          ++batch.counts.nan_samples;
+          continue;
+        }
+        const DVec3 radiance(sample.radiance);
+        pixel.sum += radiance;
+        pixel.sum_of_squares += radiance * radiance;
+        pixel.albedo += DVec3(sample.albedo);
+        pixel.normal += DVec3(sample.normal);
+        if (sample.depth >= 0) {
+          pixel.depth += static_cast<double>(sample.depth);
+          ++pixel.hits;
+        }
+        ++pixel.samples;
+      }
+    }
+  }
+}
+
+float PathTracer::opacity_at(std::uint32_t triangle, const Vec2& barycentrics,
+                             float footprint) const {
+  const MaterialId material = world_.surfaces[world_.surface_of_triangle[triangle]].material;
+  if (masked_[material] == 0) return 1;
+  return opacity(world_.materials[material], textures_, uv_at(world_, triangle, barycentrics),
+                 footprint);
+}
+
+std::uint32_t PathTracer::key_of(std::uint32_t bundle) const {
+  return static_cast<std::uint32_t>(static_cast<std::uint64_t>(bundle) * keys_ / lights_.size());
+}
+
+// A stable counting sort by bundle: segments to one light meet one structure.
+void PathTracer::sort_shadows(PathBatch& batch) const {
+  std::fill(batch.key_ends.begin(), batch.key_ends.end(), 0);
+  for (std::size_t i = 0; i < batch.shadows; ++i) {
+    ++batch.key_ends[key_of(batch.shadow_rays[i].bundle)];
+  }
+  std::uint32_t place = 0;
+  for (std::uint32_t& end : batch.key_ends) {
+    const std::uint32_t size = end;
+    end = place;
+    place += size;
+  }
+  for (std::size_t i = 0; i < batch.shadows; ++i) {
+    const std::uint32_t to = batch.key_ends[key_of(batch.shadow_rays[i].bundle)]++;
+    batch.sorted_rays[to] = batch.shadow_rays[i];
+    batch.sorted_tasks[to] = batch.shadow_tasks[i];
+  }
+  batch.sorted_rays.swap(batch.shadow_rays);
+  batch.sorted_tasks.swap(batch.shadow_tasks);
+}
+
+void PathTracer::resolve_shadows(PathBatch& batch) const {
+  if (batch.shadows == 0) return;
+  if (keys_ > 1) sort_shadows(batch);
+  if (any_masked_) {
+    attenuate_shadows(batch);
+    return;
+  }
+  accelerator_.occluded({batch.shadow_rays.data(), batch.shadows},
+                        {batch.occluded.data(), batch.shadows}, traversal(batch, RayKind::shadow));
+  batch.counts.rays[static_cast<std::size_t>(RayKind::shadow)] += batch.shadows;
+  for (std::size_t i = 0; i < batch.shadows; ++i) {
+    if (batch.occluded[i] == 0) {
+      const ShadowTask& task = batch.shadow_tasks[i];
+      batch.samples[task.slot].radiance += task.contribution;
+    }
+  }
+}
+
+// Where surfaces may let light through in part: from hit to hit, each taking its share.
+void PathTracer::attenuate_shadows(PathBatch& batch) const {
+  for (std::uint32_t round = 0; batch.shadows > 0 && round < most_passes; ++round) {
+    accelerator_.closest_hit({batch.shadow_rays.data(), batch.shadows},
+                             {batch.hits.data(), batch.shadows}, traversal(batch, RayKind::shadow));
+    batch.counts.rays[static_cast<std::size_t>(RayKind::shadow)] += batch.shadows;
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < batch.shadows; ++i) {
+      const Hit& hit = batch.hits[i];
+      ShadowTask task = batch.shadow_tasks[i];
+      if (!hit.valid()) {
+        batch.samples[task.slot].radiance += task.contribution;
+        continue;
+      }
+      task.contribution *= 1 - opacity_at(hit.triangle, {hit.u, hit.v}, 0);
+      if (is_black(task.contribution)) continue;
+      Ray ray = batch.shadow_rays[i];
+      const SurfaceInteraction at = interact(world_, hit);
+      if (ray.t_max < std::numeric_limits<float>::infinity()) {
+        const Vec3 end = ray.origin + ray.direction;
+        const float cut = (1 - ray.t_max) * glm::length(ray.direction);
+        ray = spawn_segment(at.point, end, cut, ray.bundle);
+      } else {
+        const std::uint32_t bundle = ray.bundle;
+        ray = spawn_ray(at.point, ray.direction);
+        ray.bundle = bundle;
+      }
+      batch.shadow_rays[kept] = ray;
+      batch.shadow_tasks[kept] = task;
+      ++kept;
+    }
+    batch.shadows = kept;
+  }
+}
+
+}  // namespace pah

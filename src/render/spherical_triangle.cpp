@@ -1,0 +1,80 @@
+#include "render/spherical_triangle.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace pah {
+namespace {
+
+// The part of `v` at right angles to the unit vector `w`, of unit length.
+DVec3 orthonormal_to(const DVec3& v, const DVec3& w) {
+  return glm::normalize(v - glm::dot(v, w) * w);
+}
+
+double angle_between(const DVec3& a, const DVec3& b) {
+  return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
+}
+
+}  // namespace
+
+double solid_angle(const Triangle& triangle, const Vec3& from) {
+  const DVec3 a = DVec3(triangle.a) - DVec3(from);
+  const DVec3 b = DVec3(triangle.b) - DVec3(from);
+  const DVec3 c = DVec3(triangle.c) - DVec3(from);
+  const double la = glm::length(a), lb = glm::length(b), lc = glm::length(c);
+  const double numerator = std::abs(glm::dot(a, glm::cross(b, c)));
+  const double denominator =
+      la * lb * lc + glm::dot(a, b) * lc + glm::dot(a, c) * lb + glm::dot(b, c) * la;
+  return 2 * std::atan2(numerator, denominator);
+}
+
+bool sampled_by_solid_angle(double omega) {
+  // In double the spherical excess of 1e-4 sr keeps eleven digits; from the largest one on,
+  // the triangle's own sides pass within a few degrees of great circles.
+  return omega > 1e-4 && omega < 2 * std::numbers::pi - 0.05;
+}
+
+std::optional<Vec2> sample_solid_angle(const Triangle& triangle, const Vec3& from, const Vec2& u) {
+  const DVec3 origin(from);
+  const DVec3 a = glm::normalize(DVec3(triangle.a) - origin);
+  const DVec3 b = glm::normalize(DVec3(triangle.b) - origin);
+  const DVec3 c = glm::normalize(DVec3(triangle.c) - origin);
+  const DVec3 ab = glm::cross(a, b), bc = glm::cross(b, c), ca = glm::cross(c, a);
+  const double alpha = angle_between(ab, -ca);
+  const double beta = angle_between(bc, -ab);
+  const double gamma = angle_between(ca, -bc);
+  const double area = alpha + beta + gamma - std::numbers::pi;
+
+  // The vertex c' for which the triangle a b c' has the share u.x of the area.
+  const double phi = static_cast<double>(u.x) * area + std::numbers::pi - alpha;
+  const double cos_alpha = std::cos(alpha), sin_alpha = std::sin(alpha);
+  const double cos_phi = std::cos(phi), sin_phi = std::sin(phi);
+  const double k1 = cos_phi + cos_alpha;
+  const double k2 = sin_phi - sin_alpha * glm::dot(a, b);
+  const double cos_ac = std::clamp((k2 + (k2 * cos_phi - k1 * sin_phi) * cos_alpha) /
+                                       ((k2 * sin_phi + k1 * cos_phi) * sin_alpha),
+                                   -1.0, 1.0);
+  const double sin_ac = std::sqrt(std::max(0.0, 1 - cos_ac * cos_ac));
+  const DVec3 c_prime = cos_ac * a + sin_ac * orthonormal_to(c, a);
+
+  // A point on the arc from b to c'.
+  const double cos_b = 1 - static_cast<double>(u.y) * (1 - glm::dot(c_prime, b));
+  const double sin_b = std::sqrt(std::max(0.0, 1 - cos_b * cos_b));
+  const DVec3 w = cos_b * b + sin_b * orthonormal_to(c_prime, b);
+
+  // Where the direction meets the triangle's plane.
+  const DVec3 e1 = DVec3(triangle.b) - DVec3(triangle.a);
+  const DVec3 e2 = DVec3(triangle.c) - DVec3(triangle.a);
+  const DVec3 s = origin - DVec3(triangle.a);
+  const DVec3 w_e2 = glm::cross(w, e2);
+  const double determinant = glm::dot(w_e2, e1);
+  double b1 = glm::dot(s, w_e2) / determinant;
+  double b2 = glm::dot(w, glm::cross(s, e1)) / determinant;
+  if (!std::isfinite(b1) || !std::isfinite(b2)) return std::nullopt;
+  b1 = std::clamp(b1, 0.0, 1.0);
+  b2 = std::clamp(b2, 0.0, 1.0 - b1);
+  return Vec2{static_cast<float>(b1), static_cast<float>(b2)};
+}
+
+}  // namespace pah

@@ -1,0 +1,69 @@
+#include "render/surface_interaction.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "render/lights.hpp"
+
+namespace pah {
+
+Vec2 uv_at(const World& world, std::uint32_t triangle, const Vec2& barycentrics) {
+  if (!world.surfaces[world.surface_of_triangle[triangle]].has_uvs) return barycentrics;
+  const UVec3& k = world.indices[triangle];
+  return (1 - barycentrics.x - barycentrics.y) * world.uvs[k.x] + barycentrics.x * world.uvs[k.y] +
+         barycentrics.y * world.uvs[k.z];
+}
+
+SurfaceInteraction interact(const World& world, const Hit& hit) {
+  const UVec3& k = world.indices[hit.triangle];
+  const Triangle triangle = world.triangles()[hit.triangle];
+  const float b0 = 1 - hit.u - hit.v;
+
+  SurfaceInteraction at;
+  at.surface = &world.surfaces[world.surface_of_triangle[hit.triangle]];
+  const Vec3 a = b0 * triangle.a, b = hit.u * triangle.b, c = hit.v * triangle.c;
+  at.point.position = a + b + c;
+  at.point.error = rounding_bound(7) * (glm::abs(a) + glm::abs(b) + glm::abs(c));
+  at.point.normal = geometric_normal(triangle);
+  at.normal = at.point.normal;
+
+  if (at.surface->has_normals) {
+    const Vec3 sum =
+        b0 * world.normals[k.x] + hit.u * world.normals[k.y] + hit.v * world.normals[k.z];
+    const float length = glm::length(sum);
+    if (length > 0) {
+      at.normal = sum / length;
+      if (glm::dot(at.normal, at.point.normal) < 0) at.normal = -at.normal;
+      at.smooth = at.normal != at.point.normal;
+    }
+  }
+  if (at.surface->has_uvs) {
+    at.uv = b0 * world.uvs[k.x] + hit.u * world.uvs[k.y] + hit.v * world.uvs[k.z];
+    const Vec2 d1 = world.uvs[k.y] - world.uvs[k.x], d2 = world.uvs[k.z] - world.uvs[k.x];
+    const float determinant = d1.x * d2.y - d1.y * d2.x;
+    const Vec3 e1 = triangle.b - triangle.a, e2 = triangle.c - triangle.a;
+    const float twice_area = glm::length(glm::cross(e1, e2));
+    if (determinant != 0 && twice_area > 0) {
+      at.tangent = (d2.y * e1 - d1.y * e2) / determinant;
+      at.uv_per_length = std::sqrt(std::abs(determinant) / twice_area);
+    }
+  } else {
+    at.uv = {hit.u, hit.v};
+  }
+  return at;
+}
+
+Vec3 visible_normal(const Vec3& shading, const Vec3& geometric, const Vec3& wo) {
+  const float cosine = glm::dot(shading, wo);
+  if (cosine * glm::dot(geometric, wo) >= 0) return shading;
+  return shading - 2 * cosine * wo;
+}
+
+float terminator_fade(const Vec3& shading, const Vec3& geometric, const Vec3& wi) {
+  const float g = std::abs(glm::dot(geometric, wi)) /
+                  (std::abs(glm::dot(shading, wi)) * std::abs(glm::dot(geometric, shading)));
+  if (!(g < 1)) return 1;
+  return g * (1 + g * (1 - g));
+}
+
+}  // namespace pah

@@ -1,0 +1,35 @@
+// Where a ray met a surface, and all that shading wants to know of the place.
+#pragma once
+
+#include <pah/scene/world.hpp>
+
+#include "render/shading_frame.hpp"
+#include "render/spawn.hpp"
+
+namespace pah {
+
+struct SurfaceInteraction {
+  SurfacePoint point;  // with the geometric normal
+  Vec3 normal{0};      // interpolated, on the geometric normal's side
+  Vec3 tangent{0};     // along growing u, of any length; zero if not known
+  Vec2 uv{0};
+  float uv_per_length = 0;  // texture coordinates per unit of length
+  bool smooth = false;      // the two normals differ
+  const Surface* surface = nullptr;
+};
+
+[[nodiscard]] SurfaceInteraction interact(const World& world, const Hit& hit);
+
+// Only what an opacity mask needs.
+[[nodiscard]] Vec2 uv_at(const World& world, std::uint32_t triangle, const Vec2& barycentrics);
+
+// A shading normal seen from the same side as the geometry: where `wo` would lie behind it, it is
+// mirrored about the plane across `wo`, which is continuous and turns it towards the geometric one.
+[[nodiscard]] Vec3 visible_normal(const Vec3& shading, const Vec3& geometric, const Vec3& wo);
+
+// Light that reaches a surface by its shading normal, yet grazes or misses the geometry, fades out
+// instead of being cut off at the facets: Chiang, Li & Burley, "Taming the Shadow Terminator"
+// (SIGGRAPH 2019 talks). In [0, 1]; 1 where the normals agree.
+[[nodiscard]] float terminator_fade(const Vec3& shading, const Vec3& geometric, const Vec3& wi);
+
+}  // namespace pah
