@@ -1,1 +1,195 @@
-int main() { return 0; }
+// The program: what the command line says, and how it ends.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+#include <exception>
+#include <new>
+#include <pah/io/errors.hpp>
+
+#include "cli/accelerators.hpp"
+#include "cli/compare_command.hpp"
+#include "cli/exit_code.hpp"
+#include "cli/render_command.hpp"
+
+namespace pah::cli {
+namespace {
+
+// "X0,X1,Y0,Y1" of a rectangle that is not empty.
+std::optional<PixelRect> parse_crop(std::string_view text) {
+  std::array<int, 4> bounds{};
+  const char* at = text.data();
+  const char* const end = at + text.size();
+  for (std::size_t i = 0; i < bounds.size(); ++i) {
+    if (i > 0 && (at == end || *at++ != ',')) return std::nullopt;
+    const auto [next, error] = std::from_chars(at, end, bounds[i]);
+    if (error != std::errc{} || bounds[i] < 0) return std::nullopt;
+    at = next;
+  }
+  const auto [x0, x1, y0, y1] = bounds;
+  if (at != end || x0 >= x1 || y0 >= y1) return std::nullopt;
+  return PixelRect{x0, x1, y0, y1};
+}
+
+CLI::Validator finite_number(double low) {
+  return {[low](std::string& text) {
+            double number = 0;
+            if (CLI::detail::lexical_cast(text, number) && std::isfinite(number) && number >= low)
+              return std::string();
+            return fmt::format("{} is not a finite number{}", text,
+                               std::isfinite(low) ? fmt::format(" >= {}", low) : "");
+          },
+          ""};
+}
+
+CLI::Validator whole_number(int low, int high) { return CLI::Range(low, high).description(""); }
+
+CLI::Validator accelerator_name() {
+  return {[](std::string& text) {
+            if (find_accelerator(text) != nullptr) return std::string();
+            std::vector<std::string_view> names;
+            for (const AcceleratorChoice& choice : accelerators()) names.push_back(choice.name);
+            return fmt::format("unknown accelerator {}; available are {}", text,
+                               fmt::join(names, ", "));
+          },
+          ""};
+}
+
+void add_render_options(CLI::App& app, RenderArguments& arguments) {
+  app.add_option("SCENE", arguments.scene, "The scene to render, a YAML file")->type_name("");
+  app.add_option("-o,--output", arguments.output,
+                 "The picture: .png or .jpg (for screens), .exr, .hdr\n"
+                 "or .tif (linear). By default the scene's name with\n"
+                 ".png, in the current folder")
+      ->type_name("FILE");
+  app.add_option("--spp", arguments.samples, "Samples per pixel")
+      ->check(whole_number(1, 1 << 30))
+      ->type_name("N");
+  app.add_option("--width", arguments.width, "Of the picture, in pixels")
+      ->check(whole_number(1, 65536))
+      ->type_name("N");
+  app.add_option("--height", arguments.height, "Of the picture, in pixels")
+      ->check(whole_number(1, 65536))
+      ->type_name("N");
+  app.add_option_function<std::string>(
+         "--crop",
+         [&arguments](const std::string& text) {
+           arguments.crop = parse_crop(text);
+           if (!arguments.crop)
+             throw CLI::ValidationError(
+                 "--crop", text + " is not X0,X1,Y0,Y1 with 0 <= X0 < X1 and 0 <= Y0 < Y1");
+         },
+         "Render only the pixels with X0 <= x < X1 and\n"
+         "Y0 <= y < Y1; y grows downwards")
+      ->type_name("X0,X1,Y0,Y1");
+  app.add_option("--threads", arguments.threads, "0, the default: one per core")
+      ->check(whole_number(0, 1024))
+      ->type_name("N");
+  app.add_option("--seed", arguments.seed, "Another seed, another noise")
+      ->check(CLI::NonNegativeNumber.description(""))
+      ->type_name("N");
+  app.add_option("--time-limit", arguments.time_limit,
+                 "Stop after so many seconds, with the samples that\nare finished")
+      ->check(finite_number(0))
+      ->type_name("SECONDS");
+  app.add_option("--exposure", arguments.exposure, "In stops; for .png and .jpg")
+      ->check(finite_number(-std::numeric_limits<double>::infinity()))
+      ->type_name("X");
+  std::string accelerator_help =
+      "What answers rays. It changes the time, never the\npicture. By default the first of:";
+  for (const AcceleratorChoice& choice : accelerators())
+    accelerator_help += fmt::format("\n{:12} {}", choice.name, choice.what);
+  arguments.accelerator = accelerators().front().name;
+  app.add_option("--accel", arguments.accelerator, accelerator_help)
+      ->check(accelerator_name())
+      ->type_name("NAME");
+  app.add_option("-D", arguments.overrides,
+                 "Set a key of the scene: -D render.max_depth=3. May be\nrepeated")
+      ->allow_extra_args(false)  // else it would take the scene that follows
+      ->type_name("KEY=VALUE");
+  app.add_option("--stats", arguments.stats, "Write what was done and how long it took, as JSON")
+      ->type_name("FILE");
+  app.add_flag("--quiet", arguments.quiet, "Say nothing but errors");
+  app.add_flag("--check", arguments.check, "Only load the scene and report its errors");
+}
+
+CLI::App* add_compare(CLI::App& app, CompareArguments& arguments) {
+  CLI::App* compare =
+      app.add_subcommand("compare", "Print how picture A differs from B, the reference");
+  compare->add_option("A", arguments.a, "A picture")->required()->type_name("");
+  compare->add_option("B", arguments.b, "The reference, of the same size")
+      ->required()
+      ->type_name("");
+  compare->add_flag("--json", arguments.json, "Print JSON");
+  compare
+      ->add_option("--threshold", arguments.threshold, "Exit with 1 if any channel differs by more")
+      ->check(finite_number(0))
+      ->type_name("X");
+  return compare;
+}
+
+// Options before a subcommand would be silently ignored.
+void reject_render_options(const CLI::App& app, const CLI::App& subcommand) {
+  for (const CLI::Option* option : app.get_options())
+    if (option->count() > 0)
+      throw UsageError(
+          fmt::format("{} cannot be used with {}", option->get_name(), subcommand.get_name()));
+}
+
+ExitCode run(int argc, char** argv) {
+  CLI::App app("Renders a scene file to a picture: pahrender SCENE -o OUT", "pahrender");
+  app.footer(
+      "Exit codes: 0 done, 1 failed, 2 wrong usage, 3 error in the scene or in a file\n"
+      "that it names, 4 cannot read or write, 130 interrupted (what was rendered so far\n"
+      "is saved; a second Ctrl-C stops at once).");
+  app.set_version_flag("--version", "pahrender " PAHRENDER_VERSION);
+  app.require_subcommand(0, 1);
+  app.get_formatter()->column_width(25);
+  RenderArguments render_arguments;
+  CompareArguments compare_arguments;
+  add_render_options(app, render_arguments);
+  const CLI::App* compare = add_compare(app, compare_arguments);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() != 0) throw UsageError(error.what());
+    app.exit(error);  // prints the help or the version
+    return ExitCode::done;
+  }
+  if (compare->parsed()) {
+    reject_render_options(app, *compare);
+    return run_compare(compare_arguments);
+  }
+  if (render_arguments.scene.empty()) throw UsageError("which scene?");
+  return run_render(render_arguments);
+}
+
+}  // namespace
+}  // namespace pah::cli
+
+int main(int argc, char** argv) {
+  using pah::cli::ExitCode;
+  const auto end = [](ExitCode code) { return static_cast<int>(code); };
+  try {
+    return end(pah::cli::run(argc, argv));
+  } catch (const pah::cli::UsageError& error) {
+    fmt::print(stderr, "pahrender: {}\nRun pahrender --help for what there is.\n", error.what());
+    return end(ExitCode::wrong_usage);
+  } catch (const pah::SceneError& errors) {
+    for (const pah::LocatedError& error : errors.errors())
+      fmt::print(stderr, "{}\n", pah::format_error(error));
+    return end(ExitCode::scene_error);
+  } catch (const pah::FileError& error) {
+    fmt::print(stderr, "pahrender: {}\n", error.what());
+    return end(ExitCode::file_error);
+  } catch (const std::bad_alloc&) {
+    std::fputs("pahrender: out of memory\n", stderr);
+    return end(ExitCode::failed);
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "pahrender: {}\n", error.what());
+    return end(ExitCode::failed);
+  }
+}

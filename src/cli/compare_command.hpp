@@ -1,0 +1,20 @@
+// pahrender compare A B
+#pragma once
+
+#include <filesystem>
+#include <optional>
+
+#include "cli/exit_code.hpp"
+
+namespace pah::cli {
+
+struct CompareArguments {
+  std::filesystem::path a, b;
+  bool json = false;
+  std::optional<double> threshold;  // of the largest difference
+};
+
+// Throws FileError.
+ExitCode run_compare(const CompareArguments& arguments);
+
+}  // namespace pah::cli

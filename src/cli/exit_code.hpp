@@ -1,0 +1,23 @@
+// How the program ends.
+#pragma once
+
+#include <stdexcept>
+
+namespace pah::cli {
+
+enum class ExitCode {
+  done = 0,
+  failed = 1,
+  wrong_usage = 2,
+  scene_error = 3,
+  file_error = 4,
+  interrupted = 130,
+};
+
+// What was asked for on the command line makes no sense.
+class UsageError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+}  // namespace pah::cli

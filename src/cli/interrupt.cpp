@@ -1,0 +1,35 @@
+#include "cli/interrupt.hpp"
+
+#include <signal.h>
+#include <unistd.h>
+
+#include "cli/exit_code.hpp"
+
+namespace pah::cli {
+namespace {
+
+// A signal handler may touch lock-free atomics only.
+static_assert(std::atomic<bool>::is_always_lock_free);
+std::atomic<bool> saving{false};
+std::atomic<bool> stop{false};
+
+void on_signal(int) {
+  if (!saving || stop.exchange(true)) ::_exit(static_cast<int>(ExitCode::interrupted));
+}
+
+}  // namespace
+
+void handle_interrupts() {
+  struct sigaction action {};
+  action.sa_handler = on_signal;
+  action.sa_flags = SA_RESTART;
+  sigemptyset(&action.sa_mask);
+  for (const int signal : {SIGINT, SIGTERM}) sigaction(signal, &action, nullptr);
+}
+
+SavingOnInterrupt::SavingOnInterrupt() { saving = true; }
+SavingOnInterrupt::~SavingOnInterrupt() { saving = false; }
+
+const std::atomic<bool>& stop_requested() { return stop; }
+
+}  // namespace pah::cli

@@ -1,0 +1,197 @@
+#include "cli/render_command.hpp"
+
+#include <fmt/format.h>
+#include <tbb/global_control.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <pah/io/image_file.hpp>
+#include <pah/io/load_scene.hpp>
+#include <pah/render/render.hpp>
+#include <pah/scene/world.hpp>
+
+#include "cli/accelerators.hpp"
+#include "cli/console.hpp"
+#include "cli/interrupt.hpp"
+#include "io/output_file.hpp"
+#include "report/stats.hpp"
+
+namespace pah::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Stopwatch {
+ public:
+  [[nodiscard]] double seconds() const {
+    return std::chrono::duration<double>(Clock::now() - start_).count();
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  Clock::time_point start_ = Clock::now();
+};
+
+// Extensions are matched as write_image matches them: whatever their case.
+bool has_image_extension(const fs::path& file) {
+  std::string extension = file.extension().string();
+  for (char& c : extension)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return std::ranges::find(image_extensions(), extension) != image_extensions().end();
+}
+
+fs::path output_of(const RenderArguments& arguments) {
+  if (arguments.output.empty()) return arguments.scene.stem().string() + ".png";
+  if (has_image_extension(arguments.output)) return arguments.output;
+  throw UsageError(fmt::format("cannot tell the format of {} by its extension; available are {}",
+                               arguments.output.string(), fmt::join(image_extensions(), ", ")));
+}
+
+void apply(const RenderArguments& arguments, Scene& scene) {
+  scene.film.width = arguments.width.value_or(scene.film.width);
+  scene.film.height = arguments.height.value_or(scene.film.height);
+  scene.film.exposure = arguments.exposure.value_or(scene.film.exposure);
+  scene.render.samples = arguments.samples.value_or(scene.render.samples);
+  scene.render.seed = arguments.seed.value_or(scene.render.seed);
+  if (arguments.crop) scene.film.crop = arguments.crop;
+
+  const FilmSettings& film = scene.film;
+  const auto pixels = static_cast<std::uint64_t>(film.width) * static_cast<unsigned>(film.height);
+  if (pixels > LoadLimits{}.film_pixels)
+    throw UsageError(fmt::format("a picture of {} x {} pixels is too large; at most {} pixels",
+                                 film.width, film.height, LoadLimits{}.film_pixels));
+  if (film.crop && (film.crop->x1 > film.width || film.crop->y1 > film.height))
+    throw UsageError(fmt::format("the crop {},{},{},{} reaches beyond the {} x {} picture",
+                                 film.crop->x0, film.crop->x1, film.crop->y0, film.crop->y1,
+                                 film.width, film.height));
+}
+
+// The picture, then what the film was asked to keep besides.
+std::vector<ImageLayer> layers_of(const Film& film, const FilmSettings& settings) {
+  std::vector<ImageLayer> layers{{"", {"R", "G", "B"}, radiance_of(film)}};
+  if (settings.albedo) layers.push_back({"albedo", {"R", "G", "B"}, albedo_of(film)});
+  if (settings.normal) layers.push_back({"normal", {"X", "Y", "Z"}, normal_of(film)});
+  if (settings.depth) layers.push_back({"depth", {"Z"}, depth_of(film)});
+  if (settings.variance) layers.push_back({"variance", {"R", "G", "B"}, variance_of(film)});
+  return layers;
+}
+
+bool any_samples(const Film& film) {
+  return std::ranges::any_of(film.pixels, [](const FilmPixel& pixel) { return pixel.samples > 0; });
+}
+
+RenderResult render_with_progress(const World& world, const Accelerator& accelerator,
+                                  const Scene& scene, const RenderArguments& arguments) {
+  RenderOptions options;
+  options.threads = arguments.threads;
+  options.time_limit = arguments.time_limit;
+  options.count_traversal = !arguments.stats.empty();
+  options.stop = &stop_requested();
+  if (arguments.quiet || !ProgressBar::possible())
+    return render(world, accelerator, scene.film, scene.render, options);
+  ProgressBar bar(scene.render.samples);
+  options.on_progress = [&](const Progress& progress) { bar.show(progress); };
+  return render(world, accelerator, scene.film, scene.render, options);
+}
+
+std::uint64_t total_rays(const RenderCounts& counts) {
+  std::uint64_t total = 0;
+  for (const std::uint64_t rays : counts.rays) total += rays;
+  return total;
+}
+
+void write_picture(const fs::path& file, const RenderResult& result, const Scene& scene,
+                   const std::string& hash) {
+  WriteOptions options;
+  options.exposure = scene.film.exposure;
+  // Comparisons of pictures are not to meet the rounding to half floats.
+  options.full_float = true;
+  options.metadata = {{"pahrender:version", PAHRENDER_VERSION},
+                      {"pahrender:scene_hash", hash},
+                      {"pahrender:samples", std::to_string(result.samples)},
+                      {"pahrender:seed", std::to_string(scene.render.seed)},
+                      {"pahrender:seconds", fmt::format("{:.3f}", result.seconds)}};
+  write_image(file, layers_of(result.film, scene.film), options);
+}
+
+void print_summary(const fs::path& file, const RenderResult& result, int samples_wanted) {
+  if (result.counts.nan_samples > 0)
+    fmt::print(stderr, "warning: {} samples were not finite or negative, and left out\n",
+               result.counts.nan_samples);
+  fmt::print(stderr, "wrote {}: {}, {}{} samples, {}\n", file.string(),
+             format_duration(result.seconds), result.samples,
+             result.complete ? "" : fmt::format(" of {}", samples_wanted),
+             format_ray_rate(total_rays(result.counts), result.seconds));
+}
+
+}  // namespace
+
+ExitCode run_render(const RenderArguments& arguments) {
+  const Stopwatch total;
+  handle_interrupts();
+  const AcceleratorChoice* choice = find_accelerator(arguments.accelerator);
+  if (choice == nullptr) throw UsageError("unknown accelerator " + arguments.accelerator);
+  const fs::path output = output_of(arguments);
+  if (!arguments.check) {
+    check_writable(output);
+    if (!arguments.stats.empty()) check_can_create(arguments.stats);
+  }
+
+  const int threads = arguments.threads > 0 ? arguments.threads : tbb::info::default_concurrency();
+  // oneTBB does not go beyond the number of cores unless told to.
+  const tbb::global_control parallelism(tbb::global_control::max_allowed_parallelism,
+                                        static_cast<std::size_t>(threads));
+  LoadedScene loaded = load_scene(arguments.scene, {arguments.overrides, {}});
+  Scene& scene = loaded.scene;
+  apply(arguments, scene);
+  if (arguments.check) {
+    if (!arguments.quiet) fmt::print(stderr, "{}: no errors\n", arguments.scene.string());
+    return ExitCode::done;
+  }
+  const World world = make_world(scene);
+  // From here on everything comes from the world.
+  scene.meshes = {};
+  scene.instances = {};
+
+  RenderReport report;
+  report.seconds.load = total.seconds();
+  const Stopwatch building;
+  const auto accelerator =
+      tbb::task_arena(threads).execute([&] { return choice->make(world.triangles()); });
+  report.seconds.build = building.seconds();
+
+  const SavingOnInterrupt saving;
+  const RenderResult result = render_with_progress(world, *accelerator, scene, arguments);
+  const bool interrupted = stop_requested() && !result.complete;
+  if (interrupted && !any_samples(result.film)) {
+    fmt::print(stderr, "interrupted before there was anything to save\n");
+    return ExitCode::interrupted;
+  }
+  write_picture(output, result, scene, loaded.hash);
+  if (!arguments.quiet) print_summary(output, result, scene.render.samples);
+
+  if (!arguments.stats.empty()) {
+    report.version = PAHRENDER_VERSION;
+    report.scene = arguments.scene.string();
+    report.width = scene.film.width;
+    report.height = scene.film.height;
+    report.samples = result.samples;
+    report.threads = threads;
+    report.seed = scene.render.seed;
+    report.accelerator = choice->name;
+    report.triangles = world.triangles().size();
+    report.counts = result.counts;
+    report.scene_bytes = world.bytes();
+    report.film_bytes = result.film.pixels.size() * sizeof(FilmPixel);
+    report.accelerator_bytes = accelerator->memory();
+    report.error = estimate_error(result.film);
+    report.seconds.render = result.seconds;
+    report.seconds.total = total.seconds();
+    write_text_file(arguments.stats, stats_json(report));
+  }
+  return interrupted ? ExitCode::interrupted : ExitCode::done;
+}
+
+}  // namespace pah::cli

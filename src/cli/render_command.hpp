@@ -1,0 +1,35 @@
+// pahrender SCENE -o OUT: the default command.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <pah/scene/settings.hpp>
+#include <string>
+#include <vector>
+
+#include "cli/exit_code.hpp"
+
+namespace pah::cli {
+
+// What is not set stays as the scene says.
+struct RenderArguments {
+  std::filesystem::path scene;
+  std::filesystem::path output;  // empty: the scene's name with .png, in the current folder
+  std::optional<int> samples, width, height;
+  std::optional<PixelRect> crop;
+  std::optional<std::uint64_t> seed;
+  std::optional<double> exposure;
+  int threads = 0;        // 0: all
+  double time_limit = 0;  // seconds; 0: none
+  std::string accelerator;
+  std::vector<std::string> overrides;  // key.path=value
+  std::filesystem::path stats;         // empty: none
+  bool quiet = false;
+  bool check = false;
+};
+
+// Throws UsageError, SceneError or FileError.
+ExitCode run_render(const RenderArguments& arguments);
+
+}  // namespace pah::cli

@@ -1,0 +1,65 @@
+// Runs the built program as a shell would, in a folder of its own.
+#pragma once
+
+#include <sys/types.h>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace pah::testing {
+
+// A new empty folder that becomes the current one, as long as this lives.
+class Folder {
+ public:
+  Folder();
+  ~Folder();
+  Folder(const Folder&) = delete;
+  Folder& operator=(const Folder&) = delete;
+
+  // Sorted names, without those of captured streams.
+  [[nodiscard]] static std::vector<std::string> files();
+
+ private:
+  std::filesystem::path before_, path_;
+};
+
+void write_file(const std::string& name, const std::string& text);
+[[nodiscard]] std::string read_file(const std::string& name);
+
+struct Outcome {
+  int exit_code = -1;  // -1 if a signal ended it
+  std::string out, err;
+};
+
+enum class ErrorStream { file, terminal };
+
+// A running program; needs a Folder.
+class Program {
+ public:
+  explicit Program(const std::vector<std::string>& arguments,
+                   ErrorStream stream = ErrorStream::file);
+  ~Program();  // kills it if it still runs
+  Program(const Program&) = delete;
+  Program& operator=(const Program&) = delete;
+
+  void signal(int number) const;
+  // False if it ended or 60 seconds passed without. The stream must be a terminal.
+  [[nodiscard]] bool wait_for_error_text(const std::string& text);
+  Outcome wait();
+
+ private:
+  bool read_terminal();  // false at its end
+
+  pid_t pid_ = -1;
+  int terminal_ = -1;
+  std::string terminal_text_;
+};
+
+[[nodiscard]] Outcome run(const std::vector<std::string>& arguments,
+                          ErrorStream stream = ErrorStream::file);
+
+// A box on a floor under a lamp: every kind of ray, little work.
+extern const char* const small_scene;
+
+}  // namespace pah::testing

@@ -1,0 +1,235 @@
+// Renders of small scenes, end to end.
+#include <OpenImageIO/imageio.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <pah/io/image_file.hpp>
+
+#include "catch.hpp"
+#include "program.hpp"
+
+namespace fs = std::filesystem;
+using namespace pah::testing;
+using Words = std::vector<std::string>;
+using nlohmann::json;
+
+namespace {
+
+// With --quiet: nothing may be said.
+void render(Words arguments) {
+  arguments.emplace_back("--quiet");
+  const Outcome outcome = run(arguments);
+  INFO(outcome.err);
+  REQUIRE(outcome.exit_code == 0);
+  CHECK(outcome.out.empty());
+  CHECK(outcome.err.empty());
+}
+
+json read_json(const std::string& name) { return json::parse(read_file(name)); }
+
+// EXR files hold the film's floats as they are.
+bool identical(const std::string& a, const std::string& b) {
+  const pah::Image image = pah::read_image(a);
+  const pah::Image other = pah::read_image(b);
+  return image.width == other.width && image.height == other.height && image.pixels == other.pixels;
+}
+
+bool is_black(const std::string& file) {
+  const pah::Image image = pah::read_image(file);
+  return std::ranges::all_of(image.pixels, [](const pah::Vec3& p) { return p == pah::Vec3(0); });
+}
+
+std::vector<fs::path> golden_scenes() {
+  std::vector<fs::path> scenes;
+  const fs::path folder = fs::path(PAH_SOURCE_DIR) / "golden";
+  if (fs::is_directory(folder))
+    for (const auto& entry : fs::directory_iterator(folder))
+      if (entry.path().extension() == ".yaml") scenes.push_back(entry.path());
+  std::ranges::sort(scenes);
+  return scenes;
+}
+
+}  // namespace
+
+TEST_CASE("a render writes its picture, says so, and leaves stdout alone") {
+  const Folder folder;
+  write_file("scene.yaml", small_scene);
+  const Outcome outcome = run({"scene.yaml", "-o", "out.exr"});
+  INFO(outcome.err);
+  CHECK(outcome.exit_code == 0);
+  CHECK(outcome.out.empty());
+  CHECK(outcome.err.starts_with("wrote out.exr: "));
+  CHECK(outcome.err.find("4 samples") != std::string::npos);
+  CHECK(outcome.err.find("rays/s") != std::string::npos);
+  CHECK(std::ranges::count(outcome.err, '\n') == 1);
+  CHECK(Folder::files() == Words{"out.exr", "scene.yaml"});
+  const pah::Image image = pah::read_image("out.exr");
+  CHECK(image.width == 32);
+  CHECK(image.height == 24);
+  CHECK(!is_black("out.exr"));
+}
+
+TEST_CASE("without -o the picture is named like the scene, in the current folder") {
+  const Folder folder;
+  fs::create_directory("scenes");
+  write_file("scenes/small.yaml", small_scene);
+  render({"scenes/small.yaml"});
+  CHECK(Folder::files() == Words{"scenes", "small.png"});
+}
+
+TEST_CASE("every picture format can be written") {
+  const Folder folder;
+  write_file("scene.yaml", small_scene);
+  for (const std::string& extension : pah::image_extensions()) {
+    CAPTURE(extension);
+    render({"scene.yaml", "-o", "out" + extension});
+    CHECK(pah::read_image("out" + extension).width == 32);
+  }
+}
+
+TEST_CASE("the command line overrides the scene") {
+  const Folder folder;
+  write_file("scene.yaml", small_scene);
+  render({"scene.yaml", "-o", "out.exr", "--stats", "stats.json", "--spp", "3", "--width", "20",
+          "--height", "10", "--seed", "18446744073709551615", "--threads", "2"});
+  const json stats = read_json("stats.json");
+  CHECK(stats["samples"] == 3);
+  CHECK(stats["width"] == 20);
+  CHECK(stats["height"] == 10);
+  CHECK(stats["seed"] == 18446744073709551615U);
+  CHECK(stats["threads"] == 2);
+  CHECK(pah::read_image("out.exr").width == 20);
+
+  render({"-D", "film.width=21", "-D", "render.samples=2", "scene.yaml", "-o", "out.exr", "--stats",
+          "stats.json"});
+  CHECK(read_json("stats.json")["width"] == 21);
+  CHECK(read_json("stats.json")["samples"] == 2);
+}
+
+TEST_CASE("--exposure counts in stops, in low dynamic range files only") {
+  const Folder folder;
+  write_file("scene.yaml", small_scene);
+  render({"scene.yaml", "-o", "out.png"});
+  CHECK(!is_black("out.png"));
+  render({"scene.yaml", "-o", "out.png", "--exposure", "-20"});
+  CHECK(is_black("out.png"));
+  render({"scene.yaml", "-o", "a.exr"});
+  render({"scene.yaml", "-o", "b.exr", "--exposure", "-20"});
+  CHECK(identical("a.exr", "b.exr"));
+}
+
+TEST_CASE("--stats has every key of the contract, of the right type") {
+  const Folder folder;
+  write_file("scene.yaml", small_scene);
+  render({"scene.yaml", "-o", "out.png", "--stats", "stats.json"});
+  const json stats = read_json("stats.json");
+  const auto at = [&](const char* key) { return stats.value(json::json_pointer(key), json()); };
+  for (const char* key : {"/version", "/scene", "/accelerator"}) {
+    CAPTURE(key);
+    CHECK(at(key).is_string());
+  }
+  for (const char* key :
+       {"/width", "/height", "/samples", "/threads", "/seed", "/triangles", "/rays/camera",
+        "/rays/shadow", "/rays/bounce", "/memory_bytes/scene", "/memory_bytes/global_bvh",
+        "/memory_bytes/local_bvhs", "/memory_bytes/top_level", "/memory_bytes/film",
+        "/peak_memory_bytes", "/nan_samples"}) {
+    CAPTURE(key);
+    CHECK(at(key).is_number_unsigned());
+  }
+  for (const char* key :
+       {"/seconds/load", "/seconds/build", "/seconds/render", "/seconds/total",
+        "/traversal/nodes_per_ray/camera", "/traversal/nodes_per_ray/shadow",
+        "/traversal/nodes_per_ray/bounce", "/traversal/triangles_per_ray/camera",
+        "/traversal/triangles_per_ray/shadow", "/traversal/triangles_per_ray/bounce", "/error/mse",
+        "/error/relmse", "/error/confidence95/0", "/error/confidence95/1"}) {
+    CAPTURE(key);
+    CHECK(at(key).is_number_float());
+  }
+  CHECK(at("/influence_areas").is_array());
+
+  CHECK(at("/scene") == "scene.yaml");
+  CHECK(at("/accelerator") == "bvh");
+  CHECK(at("/triangles") == 14);
+  CHECK(at("/rays/camera") == 32 * 24 * 4);
+  CHECK(at("/rays/shadow") > 0);
+  CHECK(at("/traversal/triangles_per_ray/camera") > 0);
+  CHECK(at("/memory_bytes/global_bvh") > 0);
+  CHECK(at("/nan_samples") == 0);
+  CHECK(at("/error/confidence95/0") <= at("/error/relmse"));
+  CHECK(at("/error/relmse") <= at("/error/confidence95/1"));
+  CHECK(at("/seconds/render") <= at("/seconds/total"));
+}
+
+TEST_CASE("EXR files say how they were made and hold the layers asked for") {
+  const Folder folder;
+  write_file("scene.yaml", small_scene);
+  render({"scene.yaml", "-o", "out.exr", "-D", "film.channels=[albedo, depth]"});
+  const auto file = OIIO::ImageInput::open("out.exr");
+  REQUIRE(file);
+  const OIIO::ImageSpec& spec = file->spec();
+  CHECK(spec.get_string_attribute("pahrender:samples") == "4");
+  CHECK(spec.get_string_attribute("pahrender:seed") == "3");
+  CHECK(!spec.get_string_attribute("pahrender:version").empty());
+  CHECK(!spec.get_string_attribute("pahrender:scene_hash").empty());
+  CHECK(!spec.get_string_attribute("pahrender:seconds").empty());
+  CHECK(spec.channelindex("albedo.R") >= 0);
+  CHECK(spec.channelindex("depth.Z") >= 0);
+  CHECK(spec.channelindex("normal.X") < 0);
+}
+
+TEST_CASE("--time-limit ends a render that would take for ever") {
+  const Folder folder;
+  write_file("scene.yaml", small_scene);
+  const Outcome outcome = run({"scene.yaml", "-o", "out.png", "--spp", "1000000000", "--time-limit",
+                               "0.2", "--stats", "stats.json"});
+  CHECK(outcome.exit_code == 0);
+  CHECK(outcome.err.find(" of 1000000000 samples") != std::string::npos);
+  CHECK(fs::exists("out.png"));
+  CHECK(read_json("stats.json")["samples"] >= 1);
+}
+
+TEST_CASE("a crop is that part of the whole picture") {
+  const Folder folder;
+  write_file("scene.yaml", small_scene);
+  render({"scene.yaml", "-o", "whole.exr"});
+  render({"scene.yaml", "-o", "crop.exr", "--crop", "5,21,3,20"});
+  const pah::Image whole = pah::read_image("whole.exr");
+  const pah::Image crop = pah::read_image("crop.exr");
+  REQUIRE(crop.width == 16);
+  REQUIRE(crop.height == 17);
+  bool same = true;
+  for (int y = 0; y < crop.height; ++y)
+    for (int x = 0; x < crop.width; ++x) same = same && crop.at(x, y) == whole.at(x + 5, y + 3);
+  CHECK(same);
+}
+
+TEST_CASE("another seed gives another picture") {
+  const Folder folder;
+  write_file("scene.yaml", small_scene);
+  render({"scene.yaml", "-o", "a.exr"});
+  render({"scene.yaml", "-o", "b.exr", "--seed", "4"});
+  CHECK(!identical("a.exr", "b.exr"));
+}
+
+TEST_CASE("threads and accelerators never change a pixel") {
+  const Folder folder;
+  write_file("small.yaml", small_scene);
+  std::vector<fs::path> scenes = golden_scenes();
+  if (scenes.empty()) WARN("skipped: the golden scenes, there are none here");
+  scenes.emplace_back("small.yaml");
+  for (const fs::path& scene : scenes) {
+    CAPTURE(scene.string());
+    const auto render_to = [&](const char* out, const char* accelerator, const char* threads) {
+      render({scene.string(), "-o", out, "--accel", accelerator, "--threads", threads, "--width",
+              "32", "--height", "24", "--spp", "2"});
+    };
+    render_to("reference.exr", "brute_force", "1");
+    CHECK(!is_black("reference.exr"));
+    for (const char* threads : {"1", "2", "7"}) {
+      CAPTURE(threads);
+      render_to("out.exr", "bvh", threads);
+      CHECK(identical("out.exr", "reference.exr"));
+    }
+  }
+}

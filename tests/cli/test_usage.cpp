@@ -1,0 +1,121 @@
+// What the program says and how it ends where it does not get to render.
+#include <filesystem>
+
+#include "catch.hpp"
+#include "program.hpp"
+
+using namespace pah::testing;
+using Words = std::vector<std::string>;
+
+namespace {
+
+bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+// The program failed: nothing on stdout, no file left behind.
+void check_failure(const Words& arguments, int exit_code, const std::string& message) {
+  const auto before = Folder::files();
+  const Outcome outcome = run(arguments);
+  INFO(outcome.err);
+  CHECK(outcome.exit_code == exit_code);
+  CHECK(outcome.out.empty());
+  CHECK(contains(outcome.err, message));
+  CHECK(Folder::files() == before);
+}
+
+}  // namespace
+
+TEST_CASE("help and version go to stdout") {
+  const Folder folder;
+  for (const char* option : {"--help", "-h"}) {
+    const Outcome help = run({option});
+    CHECK(help.exit_code == 0);
+    CHECK(help.err.empty());
+    for (const char* part : {"--spp", "--time-limit", "--accel", "brute_force", "compare", "130"})
+      CHECK(contains(help.out, part));
+  }
+  const Outcome version = run({"--version"});
+  CHECK(version.exit_code == 0);
+  CHECK(version.out.starts_with("pahrender "));
+}
+
+TEST_CASE("wrong usage exits with 2 and says what is wrong") {
+  const Folder folder;
+  write_file("scene.yaml", small_scene);
+  check_failure({}, 2, "scene");
+  check_failure({"--nope"}, 2, "--nope");
+  check_failure({"scene.yaml", "--nope"}, 2, "--nope");
+  check_failure({"scene.yaml", "other.yaml"}, 2, "other.yaml");
+  check_failure({"scene.yaml", "-o"}, 2, "--output");
+  check_failure({"scene.yaml", "-o", "out.xyz"}, 2, ".exr");
+  check_failure({"scene.yaml", "-o", "out"}, 2, ".exr");
+  check_failure({"scene.yaml", "--accel", "magic"}, 2, "bvh, brute_force");
+  check_failure({"scene.yaml", "--spp", "0"}, 2, "--spp");
+  check_failure({"scene.yaml", "--spp", "many"}, 2, "--spp");
+  check_failure({"scene.yaml", "--width", "65537"}, 2, "--width");
+  check_failure({"scene.yaml", "--height", "0"}, 2, "--height");
+  check_failure({"scene.yaml", "--width", "65536", "--height", "65536"}, 2, "too large");
+  check_failure({"scene.yaml", "--threads", "-1"}, 2, "--threads");
+  check_failure({"scene.yaml", "--seed", "-1"}, 2, "--seed");
+  check_failure({"scene.yaml", "--time-limit", "nan"}, 2, "--time-limit");
+  check_failure({"scene.yaml", "--exposure", "inf"}, 2, "--exposure");
+  for (const char* crop : {"", "1,2,3", "0,1,0,1,", "0,0,0,1", "2,1,0,1", "-1,1,0,1", "a,b,c,d"})
+    check_failure({"scene.yaml", "--crop", crop}, 2, "--crop");
+  check_failure({"scene.yaml", "--crop", "0,33,0,24"}, 2, "crop");
+  check_failure({"--spp", "4", "compare", "a.png", "b.png"}, 2, "--spp");
+}
+
+TEST_CASE("scenes that cannot be read exit with 4") {
+  const Folder folder;
+  std::filesystem::create_directory("folder");
+  check_failure({"missing.yaml"}, 4, "missing.yaml");
+  check_failure({"folder"}, 4, "folder");
+  check_failure({"missing.yaml", "--check"}, 4, "missing.yaml");
+}
+
+TEST_CASE("places that cannot be written are found before the scene is even read") {
+  const Folder folder;
+  std::filesystem::create_directory("folder.png");
+  write_file("file", "");
+  for (const char* out : {"missing/out.png", "folder.png", "file/out.png"})
+    check_failure({"missing.yaml", "-o", out}, 4, out);
+  for (const char* stats : {"missing/stats.json", "folder.png", "file/stats.json"})
+    check_failure({"missing.yaml", "-o", "out.png", "--stats", stats}, 4, stats);
+}
+
+TEST_CASE("all errors of a scene are reported, each with its place") {
+  const Folder folder;
+  write_file("scene.yaml",
+             "film: {width: 0}\n"
+             "render: {sampels: 4}\n"
+             "meshes:\n"
+             "  - {name: bust, file: missing.obj}\n");
+  for (const Words& arguments : {Words{"scene.yaml"}, Words{"scene.yaml", "--check"}}) {
+    check_failure(arguments, 3, "scene.yaml:1:");
+    check_failure(arguments, 3, "scene.yaml:2:");
+    check_failure(arguments, 3, "did you mean 'samples'?");
+    check_failure(arguments, 3, "missing.obj");
+  }
+}
+
+TEST_CASE("a wrong override is an error of the scene") {
+  const Folder folder;
+  write_file("scene.yaml", small_scene);
+  check_failure({"scene.yaml", "-D", "render.sampels=4"}, 3, "sampels");
+  check_failure({"scene.yaml", "-D", "film.width=-3"}, 3, "width");
+}
+
+TEST_CASE("--check loads and writes nothing") {
+  const Folder folder;
+  write_file("scene.yaml", small_scene);
+  const Outcome outcome = run({"scene.yaml", "--check", "-o", "out.png", "--stats", "stats.json"});
+  CHECK(outcome.exit_code == 0);
+  CHECK(outcome.out.empty());
+  CHECK(contains(outcome.err, "no errors"));
+  CHECK(Folder::files() == Words{"scene.yaml"});
+
+  const Outcome quiet = run({"scene.yaml", "--check", "--quiet"});
+  CHECK(quiet.exit_code == 0);
+  CHECK(quiet.err.empty());
+}
