@@ -1,9 +1,6 @@
 // Scenes from text, for tests.
 #pragma once
 
-#include <unistd.h>
-
-#include <atomic>
 #include <filesystem>
 #include <fstream>
 #include <pah/io/load_scene.hpp>
@@ -11,38 +8,22 @@
 #include <string_view>
 #include <vector>
 
-// A folder of its own, removed with all that is in it.
-class TemporaryFolder {
- public:
-  TemporaryFolder() {
-    static std::atomic<int> count{0};
-    path_ = std::filesystem::path(PAH_BINARY_DIR) /
-            ("scene_test_" + std::to_string(::getpid()) + "_" + std::to_string(count++));
-    std::filesystem::create_directories(path_);
-  }
-  ~TemporaryFolder() { std::filesystem::remove_all(path_); }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+#include "temporary_folder.hpp"
 
-  std::filesystem::path write(const std::string& name, std::string_view text) const {
-    std::ofstream(path_ / name, std::ios::binary) << text;
-    return path_ / name;
-  }
-  const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
+inline std::filesystem::path write_text(const std::filesystem::path& file, std::string_view text) {
+  std::ofstream(file, std::ios::binary) << text;
+  return file;
+}
 
 inline pah::LoadedScene load(std::string_view text, const pah::LoadOptions& options = {}) {
-  const TemporaryFolder folder;
-  return pah::load_scene(folder.write("scene.yaml", text), options);
+  const pah::TemporaryFolder folder;
+  return pah::load_scene(write_text(folder / "scene.yaml", text), options);
 }
 
 // All errors of a text, formatted without excerpts, one a line, the folder left out.
 inline std::string errors_of(std::string_view text, const pah::LoadOptions& options = {}) {
-  const TemporaryFolder folder;
-  const auto file = folder.write("scene.yaml", text);
+  const pah::TemporaryFolder folder;
+  const auto file = write_text(folder / "scene.yaml", text);
   std::string result;
   try {
     (void)pah::load_scene(file, options);
