@@ -87,9 +87,9 @@ void read_crop(MapReader& film, FilmSettings& settings) {
 }
 
 void read_channels(MapReader& film, FilmSettings& settings) {
-  const YamlNode* node = film.find("channels");
-  if (node == nullptr || !is_list(film.context(), *node, film.name_of("channels"))) return;
   const std::vector<std::string> options{"albedo", "normal", "depth", "variance"};
+  const YamlNode* node = film.find("channels", false, options);
+  if (node == nullptr || !is_list(film.context(), *node, film.name_of("channels"))) return;
   bool* const flags[] = {&settings.albedo, &settings.normal, &settings.depth, &settings.variance};
   for (const YamlRef& item : node->items) {
     const std::size_t index = read_option(film.context(), *item, "'channel' of film", options);

@@ -78,13 +78,13 @@ void read_file_options(MapReader& map, MeshNormals& normals, FileUse& use) {
              EnumNames<MeshNormals>{{"file", MeshNormals::file},
                                     {"smooth", MeshNormals::smooth},
                                     {"flat", MeshNormals::flat}});
-  const YamlNode* node = map.find("use");
+  const std::vector<std::string> options{"materials", "cameras", "lights"};
+  const YamlNode* node = map.find("use", false, options);
   if (node == nullptr || !is_list(map.context(), *node, map.name_of("use"))) return;
   bool* const flags[] = {&use.materials, &use.cameras, &use.lights};
   for (const YamlRef& item : node->items) {
-    const std::size_t index =
-        read_option(map.context(), *item, map.name_of("use"), {"materials", "cameras", "lights"});
-    if (index < 3) *flags[index] = true;
+    const std::size_t index = read_option(map.context(), *item, map.name_of("use"), options);
+    if (index < options.size()) *flags[index] = true;
   }
 }
 

@@ -114,6 +114,8 @@ bool check_image(SceneReading& reading, const Mark& mark, const std::filesystem:
   if (input == nullptr) {
     std::string why = OIIO::geterror();
     if (const std::size_t end = why.find('\n'); end != std::string::npos) why.resize(end);
+    if (const std::size_t at = why.find(file.string()); at != std::string::npos)
+      why.replace(at, file.string().size(), file.filename().string());
     reading.context.errors.add(mark, "cannot read " + shown + (why.empty() ? "" : ": " + why));
     return false;
   }

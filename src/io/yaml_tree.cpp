@@ -93,7 +93,7 @@ class TreeBuilder final : public YAML::EventHandler {
 
   void open(std::shared_ptr<YamlNode> node, YAML::anchor_t anchor) {
     if (!open_.empty() && open_.back().node->kind == Kind::map && !open_.back().key)
-      throw YamlError(node->mark, "a key must be text, not a list or map");
+      throw YamlError(node->mark, "a key must be text, not a list or map; is a bracket left open?");
     if (static_cast<int>(open_.size()) >= limits_.nesting)
       throw YamlError(node->mark,
                       "nested more than " + std::to_string(limits_.nesting) + " levels deep");
@@ -128,9 +128,7 @@ class TreeBuilder final : public YAML::EventHandler {
     Open& top = open_.back();
     if (top.node->kind == Kind::map && !top.key) {
       if (node->kind != Kind::scalar)
-        throw YamlError(mark,
-                        "a key must be text, not " +
-                            std::string(node->kind == Kind::null ? "nothing" : "a list or map"));
+        throw YamlError(mark, node->kind == Kind::null ? "a key is missing" : "a key must be text");
       top.key = YamlEntry{node->text, mark, nullptr};
       top.key->value = node->quoted ? nullptr : node;  // only a plain << merges
       return;
@@ -255,6 +253,20 @@ void check_utf8(std::string_view text, int override_index) {
   }
 }
 
+YamlError syntax_error(const YAML::Exception& error, std::string_view text, int override_index) {
+  Mark mark{override_index, error.mark.line + 1, error.mark.column + 1};
+  // What is only missed at the end of the file belongs to its last line.
+  text = text.substr(0, text.find_last_not_of(" \t\r\n") + 1);
+  const int last_line = 1 + static_cast<int>(std::count(text.begin(), text.end(), '\n'));
+  if (mark.line > last_line) {
+    mark.line = last_line;
+    mark.column = static_cast<int>(text.size() - (text.rfind('\n') + 1)) + 1;
+  }
+  const bool open_quote =
+      error.msg == YAML::ErrorMsg::DOC_IN_SCALAR || error.msg == YAML::ErrorMsg::EOF_IN_SCALAR;
+  return {mark, open_quote ? "a quoted text does not end" : "not valid YAML: " + error.msg};
+}
+
 }  // namespace
 
 const YamlEntry* YamlNode::find(std::string_view key) const {
@@ -268,13 +280,14 @@ YamlRef parse_yaml(std::string_view text, const YamlLimits& limits, std::vector<
   check_text(text, override_index);
   check_utf8(text, override_index);
   TreeBuilder builder(limits, faults, override_index);
-  std::istringstream stream{std::string(text)};
+  // Without an end marker, yaml-cpp takes the end of the file for a closing quote or bracket.
+  std::istringstream stream{std::string(text) + "\n...\n"};
   try {
     YAML::Parser parser(stream);
     while (parser.HandleNextDocument(builder)) {
     }
   } catch (const YAML::Exception& error) {
-    throw YamlError({override_index, error.mark.line + 1, error.mark.column + 1}, error.msg);
+    throw syntax_error(error, text, override_index);
   }
   YamlRef root = builder.take_root();
   if (root == nullptr) root = std::make_shared<YamlNode>();
