@@ -152,12 +152,17 @@ ConvexPolygon intersection(const ConvexPolygon& a, const ConvexPolygon& b) {
 
 double overlap_area(const ConvexPolygon& a, const ConvexPolygon& b) {
   if (a.size() < 3 || b.size() < 3) return 0;
-  // One order and one origin for both ways round, so that the answer is symmetric.
-  if (std::lexicographical_compare(b.begin(), b.end(), a.begin(), a.end(), lexicographically_less))
+  // One order for both ways round, so that the answer is symmetric; and the smaller polygon is the
+  // one that is cut, from its own corner, so that rounding is relative to its size.
+  const double a_area = area(a);
+  const double b_area = area(b);
+  if (b_area < a_area ||
+      (b_area == a_area && std::lexicographical_compare(b.begin(), b.end(), a.begin(), a.end(),
+                                                        lexicographically_less)))
     return overlap_area(b, a);
   const DVec2 origin = a[0];
   const ConvexPolygon common = intersection(moved(a, -origin), moved(b, -origin));
-  return std::min({area(common), area(a), area(b)});
+  return std::min(area(common), a_area);
 }
 
 }  // namespace pah

@@ -87,7 +87,7 @@ bool overlaps(const RegionShape& region, const Aabb& box) {
                        (i & 4) != 0 ? box.max.z : box.min.z) -
                  region.origin;
   constexpr std::array edges{DVec3(1, 0, 0), DVec3(0, 1, 0), DVec3(0, 0, 1)};
-  return !separated(region, corners, {}, edges);  // enclosing boxes have covered the box's normals
+  return !separated(region, corners, edges, edges);
 }
 
 bool overlaps(const RegionShape& region, const Triangle& triangle) {

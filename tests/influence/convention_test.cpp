@@ -1,0 +1,104 @@
+// The one convention of projections, against GLM's matrices and the thesis's printed ones.
+#include <glm/gtc/matrix_transform.hpp>
+#include <pah/influence/box_sectors.hpp>
+
+#include "catch.hpp"
+#include "random_shapes.hpp"
+
+using namespace pah;
+
+namespace {
+
+// GLM's view looks along -z with x to the right; ours has (right, up, forward) right-handed, so
+// seen along forward its first axis points left.
+DMat4 view_of(const DVec3& eye, const DMat3& axes) {
+  return glm::lookAtRH(eye, eye + axes[2], axes[1]);
+}
+DVec2 mirrored(const glm::dvec4& p) { return DVec2(-p.x, p.y) / p.w; }
+
+double distance(const DVec2& a, const DVec2& b) { return glm::length(a - b); }
+
+}  // namespace
+
+// Errata, eq. 5.2 and 5.4.
+TEST_CASE("Projections agree with GLM's matrices") {
+  Shapes shapes(1);
+  for (int i = 0; i < 1000; ++i) {
+    const PlaneArea plane{shapes.obb(1)};
+    const DVec3 h = plane.box.half_size;
+    const DVec3 eye = plane.box.center - h.z * plane.box.axes[2];
+    const DMat4 ortho =
+        glm::orthoRH_ZO(-h.x, h.x, -h.y, h.y, 0.0, 2 * h.z) * view_of(eye, plane.box.axes);
+    const DVec3 p = plane.box.center + shapes.vector();
+    REQUIRE(distance(mirrored(ortho * glm::dvec4(p, 1)), *project(plane, p) / DVec2(h)) < 1e-12);
+
+    PointArea point{shapes.frustum(1)};
+    const Frustum& f = point.frustum;
+    const DMat4 perspective = glm::perspectiveRH_ZO(2 * std::atan(f.tan_half.y),
+                                                    f.tan_half.x / f.tan_half.y, 0.01, f.far) *
+                              view_of(f.eye, f.axes);
+    const DVec3 q = f.eye + f.axes * DVec3(shapes.uniform(), shapes.uniform(), 0.5);
+    const DVec2 seen = *project(point, q) / f.tan_half;
+    REQUIRE(distance(mirrored(perspective * glm::dvec4(q, 1)), seen) <
+            1e-12 * (1 + glm::length(seen)));
+    REQUIRE_FALSE(project(point, f.eye - 0.1 * f.axes[2]).has_value());
+    REQUIRE_FALSE(project(point, f.eye).has_value());
+  }
+}
+
+TEST_CASE("The thesis's orthographic matrix misplaces what is off centre") {
+  const double left = 2, right = 6, bottom = -1, top = 1, far = 10;
+  const auto printed = [&](const DVec3& p) {
+    return DVec3(2 / (right - left) * p.x + (left + right) / 2,
+                 2 / (top - bottom) * p.y + (top + bottom) / 2, -2 / far * p.z - 1);
+  };
+  const glm::dvec4 corner =
+      glm::orthoRH_ZO(left, right, bottom, top, 0.0, far) * glm::dvec4(right, top, 0, 1);
+  CHECK(DVec2(corner) == DVec2(1, 1));
+  CHECK(printed({right, top, 0}).x == 7);  // should be 1
+  // Ours: the same view as an oriented box.
+  const PlaneArea area{Obb{{4, 0, 5}, DMat3(1.0), {2, 1, 5}}};
+  CHECK(*project(area, {right, top, 0}) / DVec2(2, 1) == DVec2(1, 1));
+}
+
+// Errata, algorithms 5.3 and 5.4.
+TEST_CASE("The thesis's hull table and its algorithms disagree about left and right") {
+  // The table: bit 0 right, 1 left, 2 bottom, 3 top, 4 front, 5 back. Algorithm 5.4 for an eye
+  // left of the box and above it:
+  const Aabb box{{0, 0, 0}, {1, 1, 1}};
+  const DVec3 eye(-1, 2, 0.5);
+  int printed = 0;
+  if (eye.x < box.min.x)
+    printed |= 1;
+  else if (eye.x > box.max.x)
+    printed |= 2;
+  if (eye.y < box.min.y)
+    printed |= 4;
+  else if (eye.y > box.max.y)
+    printed |= 8;
+  const bool table_says_right = (printed & 1) != 0;
+  CHECK(table_says_right);  // though the eye is on the left
+
+  const BoxSector sector = sector_of_eye(eye, box);
+  CHECK(sector == BoxSector{-1, 1, 0});
+  const auto outline = outline_from(sector).span();
+  REQUIRE(outline.size() == 6);
+  // Four corners of the face at min.x, four of the one at max.y, less the two that both share
+  // and keep: only the edge at max.x, min.y is hidden.
+  for (const std::uint8_t corner : outline) CHECK((corner & 0b011) != 0b001);
+}
+
+TEST_CASE("Every sector has an outline of four or six corners") {
+  for (int z = -1; z <= 1; ++z)
+    for (int y = -1; y <= 1; ++y)
+      for (int x = -1; x <= 1; ++x) {
+        const BoxSector sector{x, y, z};
+        const int faces = std::abs(x) + std::abs(y) + std::abs(z);
+        CHECK(outline_from(sector).size == (faces == 0 ? 0 : faces == 1 ? 4 : 6));
+      }
+  // From inside, on a face, and from afar.
+  const Aabb box{{0, 0, 0}, {1, 1, 1}};
+  CHECK(sector_of_eye({0.5, 0.5, 0.5}, box).inside());
+  CHECK(sector_of_eye({1, 0.5, 0.5}, box).inside());
+  CHECK(sector_of_direction({0, -1, 0}) == BoxSector{0, 1, 0});
+}

@@ -1,0 +1,161 @@
+// Regions against exact arithmetic: nothing is ever called separate that touches.
+#include "catch.hpp"
+#include "exact.hpp"
+#include "random_shapes.hpp"
+
+using namespace pah;
+
+namespace {
+
+struct Tally {
+  int touching = 0, apart = 0, false_touch = 0;
+
+  void add(bool ours, bool truth) {
+    if (truth) {
+      ++touching;
+    } else {
+      ++apart;
+      false_touch += ours;
+    }
+  }
+};
+
+// Corners of regions and boxes, on which things are made to touch.
+std::vector<Vec3> places_of(const Region& region) {
+  std::vector<Vec3> places;
+  const RegionShape shape = shape_of(region);
+  for (const DVec3& v : shape.vertices) places.emplace_back(shape.origin + v);
+  places.push_back(0.5F * (places[0] + places[7]));
+  places.push_back(0.5F * (places[0] + places[1]));
+  places.push_back(0.5F * (places[4] + places[5]));
+  return places;
+}
+
+// A region with exactly representable faces, so that exact contact happens.
+Region dyadic_region(Shapes& shapes) {
+  const DMat3 swap(DVec3(0, 1, 0), DVec3(0, 0, 1), DVec3(1, 0, 0));
+  const DMat3 axes = shapes.integer(0, 1) == 0 ? DMat3(1.0) : swap;
+  const DVec3 center(shapes.integer(-4, 4), shapes.integer(-4, 4), shapes.integer(-4, 4));
+  if (shapes.integer(0, 1) == 0)
+    return Obb{center, axes,
+               DVec3(shapes.integer(0, 3), shapes.integer(1, 3), shapes.integer(1, 3))};
+  return Frustum{center, axes, DVec2(1, 0.5 * shapes.integer(1, 4)), 0.5 * shapes.integer(0, 2),
+                 shapes.integer(2, 8) * 0.5};
+}
+Vec3 dyadic_point(Shapes& shapes) {
+  return {0.5F * static_cast<float>(shapes.integer(-14, 14)),
+          0.5F * static_cast<float>(shapes.integer(-14, 14)),
+          0.5F * static_cast<float>(shapes.integer(-14, 14))};
+}
+
+void compare_overlaps(unsigned seed, int count) {
+  Shapes shapes(seed);
+  Tally boxes, triangles, dyadic;
+  for (int i = 0; i < count; ++i) {
+    const double scale = shapes.scale();
+    const Region region = shapes.region(scale);
+    Aabb box = shapes.box(1.5 * scale);
+    Triangle triangle{Vec3(1.5 * scale * shapes.vector()), Vec3(1.5 * scale * shapes.vector()),
+                      Vec3(1.5 * scale * shapes.vector())};
+    if (i % 4 == 0) {  // touch a corner, an edge or a middle
+      const auto places = places_of(region);
+      const Vec3 place = places[static_cast<std::size_t>(shapes.integer(0, 10))];
+      const Vec3 size = box.extent();
+      box.min = place;
+      box.max = place + size;
+      triangle.a = place;
+    }
+    if (i % 16 == 1) triangle.c = triangle.b;                             // a segment
+    if (i % 16 == 2) triangle.c = 0.5F * triangle.a + 0.5F * triangle.b;  // a needle
+    if (i % 16 == 3) triangle.b = triangle.c = triangle.a;                // a point
+    if (i % 16 == 5) triangle = {1e3F * triangle.a, 1e3F * triangle.b, 1e3F * triangle.c};
+
+    const bool box_truth = exact::overlaps(region, box);
+    const bool box_ours = overlaps(region, box);
+    if (box_truth) REQUIRE(box_ours);
+    boxes.add(box_ours, box_truth);
+
+    const bool triangle_truth = exact::overlaps(region, triangle);
+    const bool triangle_ours = overlaps(region, triangle);
+    if (triangle_truth) REQUIRE(triangle_ours);
+    triangles.add(triangle_ours, triangle_truth);
+
+    const Region grid = dyadic_region(shapes);
+    const Vec3 a = dyadic_point(shapes), b = dyadic_point(shapes);
+    const Aabb grid_box{glm::min(a, b), glm::max(a, b)};
+    const Triangle grid_triangle{a, b, dyadic_point(shapes)};
+    const bool grid_truth = exact::overlaps(grid, grid_box);
+    if (grid_truth) REQUIRE(overlaps(grid, grid_box));
+    dyadic.add(overlaps(grid, grid_box), grid_truth);
+    const bool grid_triangle_truth = exact::overlaps(grid, grid_triangle);
+    if (grid_triangle_truth) REQUIRE(overlaps(grid, grid_triangle));
+    dyadic.add(overlaps(grid, grid_triangle), grid_triangle_truth);
+  }
+  const auto report = [](const char* name, const Tally& t) {
+    WARN(name << ": " << t.touching << " touch, " << t.apart << " apart, of which " << t.false_touch
+              << " are said to touch");
+  };
+  report("boxes", boxes);
+  report("triangles", triangles);
+  report("on a grid", dyadic);
+  // Enough of either, and separation is found but for contacts within rounding.
+  for (const Tally& t : {boxes, triangles, dyadic}) {
+    CHECK(t.touching > count / 10);
+    CHECK(t.apart > count / 20);
+  }
+  CHECK(dyadic.false_touch <= dyadic.apart / 1000);
+  CHECK(triangles.false_touch <= triangles.apart / 1000);
+  CHECK(boxes.false_touch <= boxes.apart / 1000);
+}
+
+void compare_points(unsigned seed, int count) {
+  Shapes shapes(seed);
+  int inside = 0, undecided = 0;
+  for (int i = 0; i < count; ++i) {
+    const double scale = shapes.scale();
+    const bool grid = i % 4 == 0;
+    const Region region = grid ? dyadic_region(shapes) : shapes.region(scale);
+    Vec3 p = grid ? dyadic_point(shapes) : Vec3(scale * shapes.vector());
+    if (i % 4 == 1) {
+      const auto places = places_of(region);
+      p = places[static_cast<std::size_t>(shapes.integer(0, 10))];
+      const int k = shapes.integer(0, 2);
+      p[k] = std::nextafterf(p[k], shapes.integer(0, 1) == 0 ? -1e30F : 1e30F);
+    }
+    const bool truth = exact::contains(region, p);
+    const bool ours = contains(region, p);
+    if (truth) REQUIRE(ours);
+    inside += truth;
+    if (ours && !truth) {
+      ++undecided;
+      // Only within rounding: a region 1e-12 larger has it.
+      Region larger = region;
+      if (auto* b = std::get_if<Obb>(&larger)) {
+        b->half_size += 1e-13 * (b->half_size.x + b->half_size.y + b->half_size.z);
+        REQUIRE(exact::contains(larger, p));
+      } else {
+        auto& f = std::get<Frustum>(larger);
+        const double e = 1e-13 * f.far * (1 + f.tan_half.x + f.tan_half.y);
+        f.eye -= 2 * e / std::min(1.0, std::min(f.tan_half.x, f.tan_half.y)) * f.axes[2];
+        f.near = 0;
+        f.far *= 1 + 1e-10;
+        REQUIRE(exact::contains(larger, p));
+      }
+    }
+    if (std::holds_alternative<Aabb>(region)) REQUIRE(ours == truth);
+  }
+  WARN(inside << " of " << count << " points inside, " << undecided << " more within rounding");
+  CHECK(inside > count / 20);
+}
+
+}  // namespace
+
+TEST_CASE("Overlap of regions is never denied where exact arithmetic affirms it") {
+  compare_overlaps(1, 4000);
+}
+TEST_CASE("Overlap of regions, many times", "[full]") { compare_overlaps(2, 1000000); }
+
+TEST_CASE("Containment of points is never denied where exact arithmetic affirms it") {
+  compare_points(3, 20000);
+}
+TEST_CASE("Containment of points, many times", "[full]") { compare_points(4, 1000000); }
