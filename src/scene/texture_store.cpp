@@ -55,6 +55,13 @@ std::string described(const std::filesystem::path& file, std::string reason) {
   return message;
 }
 
+// A texel is decoded to a float; so is a whole tile at a time, whatever size the file claims.
+double decoded_bytes(const OIIO::ImageSpec& spec) {
+  const double image = static_cast<double>(spec.width) * spec.height;
+  const double tile = static_cast<double>(spec.tile_width) * spec.tile_height;
+  return sizeof(float) * spec.nchannels * std::max(image, tile);
+}
+
 // Reads the header, and refuses what would not fit before anything is decoded.
 OpenImage open_image(TextureId id, const ImageTexture& texture, const TextureOptions& options) {
   OIIO::ImageSpec config;
@@ -67,8 +74,7 @@ OpenImage open_image(TextureId id, const ImageTexture& texture, const TextureOpt
   if (spec.width < 1 || spec.height < 1 || spec.nchannels < 1 || spec.depth > 1 || spec.deep) {
     throw TextureError(id, described(texture.file, "not a flat picture"));
   }
-  const double bytes = 4.0 * spec.width * spec.height * spec.nchannels;
-  if (bytes > static_cast<double>(options.max_image_bytes)) {
+  if (decoded_bytes(spec) > static_cast<double>(options.max_image_bytes)) {
     throw TextureError(
         id, described(texture.file, std::to_string(spec.width) + " x " +
                                         std::to_string(spec.height) + " pixels of " +
@@ -211,6 +217,8 @@ TextureStore::TextureStore(std::span<const Texture> textures, const TextureOptio
       entry.image = impl_->load(static_cast<TextureId>(i), image);
     } catch (const TextureError& error) {
       errors[i] = error;
+    } catch (const std::exception& error) {
+      errors[i].emplace(static_cast<TextureId>(i), described(image.file, error.what()));
     }
   });
   for (const auto& error : errors) {
