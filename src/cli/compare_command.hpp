@@ -14,7 +14,7 @@ struct CompareArguments {
   std::optional<double> threshold;  // of the largest difference
 };
 
-// Throws FileError.
+// Throws FileError, and std::invalid_argument if the sizes differ.
 ExitCode run_compare(const CompareArguments& arguments);
 
 }  // namespace pah::cli

@@ -26,15 +26,20 @@ fs::path resolved(const fs::path& file) {
   return error ? absolute : target;
 }
 
+// What must be written to as it is, rather than be replaced.
 bool is_device(const fs::path& file) {
+  // These may lead to files, but to files that somebody has open.
+  for (const char* open_file : {"/dev/std", "/dev/fd/", "/proc/"})
+    if (file.string().starts_with(open_file)) return true;
   std::error_code error;
   const fs::file_status status = fs::status(file, error);
   return fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status);
 }
 
-void write_all(const fs::path& file, const fs::path& named, std::string_view text) {
+void write_all(const fs::path& file, const fs::path& named, std::string_view text,
+               std::ios::openmode mode = std::ios::trunc) {
   errno = 0;
-  std::ofstream stream(file, std::ios::binary);
+  std::ofstream stream(file, std::ios::binary | mode);
   stream.write(text.data(), static_cast<std::streamsize>(text.size()));
   stream.close();
   if (stream) return;
@@ -76,7 +81,7 @@ void put_in_place(const fs::path& temporary, const fs::path& file) {
 }
 
 void write_text_file(const fs::path& file, std::string_view text) {
-  if (is_device(file)) return write_all(file, file, text);
+  if (is_device(file)) return write_all(file, file, text, std::ios::app);
   const fs::path temporary = temporary_beside(file);
   write_all(temporary, file, text);
   put_in_place(temporary, file);

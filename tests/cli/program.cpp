@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <filesystem>
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
@@ -31,19 +32,7 @@ lights:
   - {name: bulb, type: point, position: [1, 3, 1], intensity: [20, 20, 18]}
 )";
 
-Folder::Folder() : before_(fs::current_path()) {
-  std::string pattern = (fs::temp_directory_path() / "pahrender-XXXXXX").string();
-  if (::mkdtemp(pattern.data()) == nullptr) throw std::runtime_error("cannot create a folder");
-  path_ = pattern;
-  fs::current_path(path_);
-}
-
-Folder::~Folder() {
-  fs::current_path(before_);
-  fs::remove_all(path_);
-}
-
-std::vector<std::string> Folder::files() {
+std::vector<std::string> files() {
   std::vector<std::string> names;
   for (const auto& entry : fs::directory_iterator(".")) {
     std::string name = entry.path().filename();

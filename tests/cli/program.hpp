@@ -1,28 +1,15 @@
-// Runs the built program as a shell would, in a folder of its own.
+// Runs the built program as a shell would.
 #pragma once
 
 #include <sys/types.h>
 
-#include <filesystem>
 #include <string>
 #include <vector>
 
 namespace pah::testing {
 
-// A new empty folder that becomes the current one, as long as this lives.
-class Folder {
- public:
-  Folder();
-  ~Folder();
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-
-  // Sorted names, without those of captured streams.
-  [[nodiscard]] static std::vector<std::string> files();
-
- private:
-  std::filesystem::path before_, path_;
-};
+// Sorted names in the current folder, without those of captured streams.
+[[nodiscard]] std::vector<std::string> files();
 
 void write_file(const std::string& name, const std::string& text);
 [[nodiscard]] std::string read_file(const std::string& name);
@@ -34,7 +21,7 @@ struct Outcome {
 
 enum class ErrorStream { file, terminal };
 
-// A running program; needs a Folder.
+// A running program. Its streams go to files in the current folder.
 class Program {
  public:
   explicit Program(const std::vector<std::string>& arguments,

@@ -11,7 +11,7 @@
 #include <iterator>
 #include <pah/io/image_file.hpp>
 
-#include "temporary_folder.hpp"
+#include "support/temporary_folder.hpp"
 
 using namespace pah;
 

@@ -1,34 +1,29 @@
-#include <unistd.h>
-
 #include <fstream>
 #include <map>
 
 #include "catch.hpp"
 #include "include_rules.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace fs = std::filesystem;
 using pah::testing::broken_include_rules;
 
 namespace {
 
-// A made-up tree of files, removed in the end.
+// A made-up tree of files.
 class Tree {
  public:
-  explicit Tree(const std::map<std::string, std::string>& files)
-      : root_(fs::temp_directory_path() / ("pah-layering-" + std::to_string(::getpid()))) {
+  explicit Tree(const std::map<std::string, std::string>& files) {
     for (const auto& [name, text] : files) {
-      fs::create_directories((root_ / name).parent_path());
-      std::ofstream(root_ / name) << text;
+      fs::create_directories((folder_ / name).parent_path());
+      std::ofstream(folder_ / name) << text;
     }
   }
-  ~Tree() { fs::remove_all(root_); }
-  Tree(const Tree&) = delete;
-  Tree& operator=(const Tree&) = delete;
 
-  [[nodiscard]] const fs::path& root() const { return root_; }
+  [[nodiscard]] const fs::path& root() const { return folder_.path(); }
 
  private:
-  fs::path root_;
+  pah::TemporaryFolder folder_;
 };
 
 std::vector<std::string> faults_of(const std::string& file, const std::string& text) {

@@ -3,8 +3,10 @@
 
 #include "catch.hpp"
 #include "program.hpp"
+#include "support/temporary_folder.hpp"
 
 using namespace pah::testing;
+using pah::CurrentTemporaryFolder;
 using Words = std::vector<std::string>;
 
 namespace {
@@ -15,19 +17,19 @@ bool contains(const std::string& text, const std::string& part) {
 
 // The program failed: nothing on stdout, no file left behind.
 void check_failure(const Words& arguments, int exit_code, const std::string& message) {
-  const auto before = Folder::files();
+  const auto before = files();
   const Outcome outcome = run(arguments);
   INFO(outcome.err);
   CHECK(outcome.exit_code == exit_code);
   CHECK(outcome.out.empty());
   CHECK(contains(outcome.err, message));
-  CHECK(Folder::files() == before);
+  CHECK(files() == before);
 }
 
 }  // namespace
 
 TEST_CASE("help and version go to stdout") {
-  const Folder folder;
+  const CurrentTemporaryFolder folder;
   for (const char* option : {"--help", "-h"}) {
     const Outcome help = run({option});
     CHECK(help.exit_code == 0);
@@ -41,7 +43,7 @@ TEST_CASE("help and version go to stdout") {
 }
 
 TEST_CASE("wrong usage exits with 2 and says what is wrong") {
-  const Folder folder;
+  const CurrentTemporaryFolder folder;
   write_file("scene.yaml", small_scene);
   check_failure({}, 2, "scene");
   check_failure({"--nope"}, 2, "--nope");
@@ -67,7 +69,7 @@ TEST_CASE("wrong usage exits with 2 and says what is wrong") {
 }
 
 TEST_CASE("scenes that cannot be read exit with 4") {
-  const Folder folder;
+  const CurrentTemporaryFolder folder;
   std::filesystem::create_directory("folder");
   check_failure({"missing.yaml"}, 4, "missing.yaml");
   check_failure({"folder"}, 4, "folder");
@@ -75,7 +77,7 @@ TEST_CASE("scenes that cannot be read exit with 4") {
 }
 
 TEST_CASE("places that cannot be written are found before the scene is even read") {
-  const Folder folder;
+  const CurrentTemporaryFolder folder;
   std::filesystem::create_directory("folder.png");
   write_file("file", "");
   for (const char* out : {"missing/out.png", "folder.png", "file/out.png"})
@@ -85,7 +87,7 @@ TEST_CASE("places that cannot be written are found before the scene is even read
 }
 
 TEST_CASE("all errors of a scene are reported, each with its place") {
-  const Folder folder;
+  const CurrentTemporaryFolder folder;
   write_file("scene.yaml",
              "film: {width: 0}\n"
              "render: {sampels: 4}\n"
@@ -100,20 +102,20 @@ TEST_CASE("all errors of a scene are reported, each with its place") {
 }
 
 TEST_CASE("a wrong override is an error of the scene") {
-  const Folder folder;
+  const CurrentTemporaryFolder folder;
   write_file("scene.yaml", small_scene);
   check_failure({"scene.yaml", "-D", "render.sampels=4"}, 3, "sampels");
   check_failure({"scene.yaml", "-D", "film.width=-3"}, 3, "width");
 }
 
 TEST_CASE("--check loads and writes nothing") {
-  const Folder folder;
+  const CurrentTemporaryFolder folder;
   write_file("scene.yaml", small_scene);
   const Outcome outcome = run({"scene.yaml", "--check", "-o", "out.png", "--stats", "stats.json"});
   CHECK(outcome.exit_code == 0);
   CHECK(outcome.out.empty());
   CHECK(contains(outcome.err, "no errors"));
-  CHECK(Folder::files() == Words{"scene.yaml"});
+  CHECK(files() == Words{"scene.yaml"});
 
   const Outcome quiet = run({"scene.yaml", "--check", "--quiet"});
   CHECK(quiet.exit_code == 0);

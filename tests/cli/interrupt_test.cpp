@@ -5,8 +5,10 @@
 
 #include "catch.hpp"
 #include "program.hpp"
+#include "support/temporary_folder.hpp"
 
 using namespace pah::testing;
+using pah::CurrentTemporaryFolder;
 using Words = std::vector<std::string>;
 
 namespace {
@@ -17,7 +19,7 @@ const Words endless{"scene.yaml", "-o", "out.exr", "--spp", "1000000000"};
 
 TEST_CASE("a signal saves what there is and exits with 130") {
   for (const int number : {SIGINT, SIGTERM}) {
-    const Folder folder;
+    const CurrentTemporaryFolder folder;
     write_file("scene.yaml", small_scene);
     Program program(endless, ErrorStream::terminal);
     REQUIRE(program.wait_for_error_text("samples"));
@@ -28,13 +30,13 @@ TEST_CASE("a signal saves what there is and exits with 130") {
     CHECK(outcome.out.empty());
     CHECK(outcome.err.find("wrote out.exr: ") != std::string::npos);
     CHECK(outcome.err.find(" of 1000000000 samples") != std::string::npos);
-    CHECK(Folder::files() == Words{"out.exr", "scene.yaml"});
+    CHECK(files() == Words{"out.exr", "scene.yaml"});
     CHECK(pah::read_image("out.exr").width == 32);
   }
 }
 
 TEST_CASE("a second signal ends the program at once") {
-  const Folder folder;
+  const CurrentTemporaryFolder folder;
   write_file("scene.yaml", small_scene);
   Program program(endless, ErrorStream::terminal);
   REQUIRE(program.wait_for_error_text("samples"));
@@ -44,11 +46,11 @@ TEST_CASE("a second signal ends the program at once") {
   const Outcome outcome = program.wait();
   CHECK(outcome.exit_code == 130);
   CHECK(outcome.err.find("wrote") == std::string::npos);
-  CHECK(Folder::files() == Words{"scene.yaml"});
+  CHECK(files() == Words{"scene.yaml"});
 }
 
 TEST_CASE("the progress bar shows on a terminal only, and not if asked to be quiet") {
-  const Folder folder;
+  const CurrentTemporaryFolder folder;
   write_file("scene.yaml", small_scene);
   const Words arguments{"scene.yaml", "-o", "out.png", "--spp", "64"};
   const Outcome shown = run(arguments, ErrorStream::terminal);

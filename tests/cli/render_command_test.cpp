@@ -8,9 +8,11 @@
 
 #include "catch.hpp"
 #include "program.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace fs = std::filesystem;
 using namespace pah::testing;
+using pah::CurrentTemporaryFolder;
 using Words = std::vector<std::string>;
 using nlohmann::json;
 
@@ -53,7 +55,7 @@ std::vector<fs::path> golden_scenes() {
 }  // namespace
 
 TEST_CASE("a render writes its picture, says so, and leaves stdout alone") {
-  const Folder folder;
+  const CurrentTemporaryFolder folder;
   write_file("scene.yaml", small_scene);
   const Outcome outcome = run({"scene.yaml", "-o", "out.exr"});
   INFO(outcome.err);
@@ -63,7 +65,7 @@ TEST_CASE("a render writes its picture, says so, and leaves stdout alone") {
   CHECK(outcome.err.find("4 samples") != std::string::npos);
   CHECK(outcome.err.find("rays/s") != std::string::npos);
   CHECK(std::ranges::count(outcome.err, '\n') == 1);
-  CHECK(Folder::files() == Words{"out.exr", "scene.yaml"});
+  CHECK(files() == Words{"out.exr", "scene.yaml"});
   const pah::Image image = pah::read_image("out.exr");
   CHECK(image.width == 32);
   CHECK(image.height == 24);
@@ -71,15 +73,15 @@ TEST_CASE("a render writes its picture, says so, and leaves stdout alone") {
 }
 
 TEST_CASE("without -o the picture is named like the scene, in the current folder") {
-  const Folder folder;
+  const CurrentTemporaryFolder folder;
   fs::create_directory("scenes");
   write_file("scenes/small.yaml", small_scene);
   render({"scenes/small.yaml"});
-  CHECK(Folder::files() == Words{"scenes", "small.png"});
+  CHECK(files() == Words{"scenes", "small.png"});
 }
 
 TEST_CASE("every picture format can be written") {
-  const Folder folder;
+  const CurrentTemporaryFolder folder;
   write_file("scene.yaml", small_scene);
   for (const std::string& extension : pah::image_extensions()) {
     CAPTURE(extension);
@@ -89,7 +91,7 @@ TEST_CASE("every picture format can be written") {
 }
 
 TEST_CASE("the command line overrides the scene") {
-  const Folder folder;
+  const CurrentTemporaryFolder folder;
   write_file("scene.yaml", small_scene);
   render({"scene.yaml", "-o", "out.exr", "--stats", "stats.json", "--spp", "3", "--width", "20",
           "--height", "10", "--seed", "18446744073709551615", "--threads", "2"});
@@ -108,7 +110,7 @@ TEST_CASE("the command line overrides the scene") {
 }
 
 TEST_CASE("--exposure counts in stops, in low dynamic range files only") {
-  const Folder folder;
+  const CurrentTemporaryFolder folder;
   write_file("scene.yaml", small_scene);
   render({"scene.yaml", "-o", "out.png"});
   CHECK(!is_black("out.png"));
@@ -120,7 +122,7 @@ TEST_CASE("--exposure counts in stops, in low dynamic range files only") {
 }
 
 TEST_CASE("--stats has every key of the contract, of the right type") {
-  const Folder folder;
+  const CurrentTemporaryFolder folder;
   write_file("scene.yaml", small_scene);
   render({"scene.yaml", "-o", "out.png", "--stats", "stats.json"});
   const json stats = read_json("stats.json");
@@ -162,7 +164,7 @@ TEST_CASE("--stats has every key of the contract, of the right type") {
 }
 
 TEST_CASE("EXR files say how they were made and hold the layers asked for") {
-  const Folder folder;
+  const CurrentTemporaryFolder folder;
   write_file("scene.yaml", small_scene);
   render({"scene.yaml", "-o", "out.exr", "-D", "film.channels=[albedo, depth]"});
   const auto file = OIIO::ImageInput::open("out.exr");
@@ -179,7 +181,7 @@ TEST_CASE("EXR files say how they were made and hold the layers asked for") {
 }
 
 TEST_CASE("--time-limit ends a render that would take for ever") {
-  const Folder folder;
+  const CurrentTemporaryFolder folder;
   write_file("scene.yaml", small_scene);
   const Outcome outcome = run({"scene.yaml", "-o", "out.png", "--spp", "1000000000", "--time-limit",
                                "0.2", "--stats", "stats.json"});
@@ -190,7 +192,7 @@ TEST_CASE("--time-limit ends a render that would take for ever") {
 }
 
 TEST_CASE("a crop is that part of the whole picture") {
-  const Folder folder;
+  const CurrentTemporaryFolder folder;
   write_file("scene.yaml", small_scene);
   render({"scene.yaml", "-o", "whole.exr"});
   render({"scene.yaml", "-o", "crop.exr", "--crop", "5,21,3,20"});
@@ -205,7 +207,7 @@ TEST_CASE("a crop is that part of the whole picture") {
 }
 
 TEST_CASE("another seed gives another picture") {
-  const Folder folder;
+  const CurrentTemporaryFolder folder;
   write_file("scene.yaml", small_scene);
   render({"scene.yaml", "-o", "a.exr"});
   render({"scene.yaml", "-o", "b.exr", "--seed", "4"});
@@ -213,7 +215,7 @@ TEST_CASE("another seed gives another picture") {
 }
 
 TEST_CASE("threads and accelerators never change a pixel") {
-  const Folder folder;
+  const CurrentTemporaryFolder folder;
   write_file("small.yaml", small_scene);
   std::vector<fs::path> scenes = golden_scenes();
   if (scenes.empty()) WARN("skipped: the golden scenes, there are none here");

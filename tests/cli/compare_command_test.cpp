@@ -4,8 +4,10 @@
 
 #include "catch.hpp"
 #include "program.hpp"
+#include "support/temporary_folder.hpp"
 
 using namespace pah::testing;
+using pah::CurrentTemporaryFolder;
 
 namespace {
 
@@ -23,7 +25,7 @@ void write_picture(const std::string& name, float red) {
 }  // namespace
 
 TEST_CASE("compare prints what differs") {
-  const Folder folder;
+  const CurrentTemporaryFolder folder;
   write_picture("a.exr", 0.5F);
   write_picture("b.exr", 0.25F);
   const Outcome text = run({"compare", "a.exr", "b.exr"});
@@ -41,7 +43,7 @@ TEST_CASE("compare prints what differs") {
 }
 
 TEST_CASE("compare fails beyond the threshold only") {
-  const Folder folder;
+  const CurrentTemporaryFolder folder;
   write_picture("a.exr", 0.5F);
   write_picture("b.exr", 0.25F);
   write_picture("nan.exr", std::numeric_limits<float>::quiet_NaN());
@@ -52,7 +54,7 @@ TEST_CASE("compare fails beyond the threshold only") {
 }
 
 TEST_CASE("compare says what it cannot compare") {
-  const Folder folder;
+  const CurrentTemporaryFolder folder;
   write_picture("a.exr", 0.5F);
   pah::Image small;
   small.width = small.height = 1;

@@ -33,4 +33,20 @@ class TemporaryFolder {
   std::filesystem::path path_;
 };
 
+// One that is the current folder as long as it lives.
+class CurrentTemporaryFolder {
+ public:
+  CurrentTemporaryFolder() { std::filesystem::current_path(folder_.path()); }
+  ~CurrentTemporaryFolder() {
+    std::error_code ignored;
+    std::filesystem::current_path(before_, ignored);
+  }
+  CurrentTemporaryFolder(const CurrentTemporaryFolder&) = delete;
+  CurrentTemporaryFolder& operator=(const CurrentTemporaryFolder&) = delete;
+
+ private:
+  std::filesystem::path before_ = std::filesystem::current_path();
+  TemporaryFolder folder_;
+};
+
 }  // namespace pah
