@@ -31,26 +31,61 @@ std::vector<Vec3> places_of(const Region& region) {
   return places;
 }
 
-// A region with exactly representable faces, so that exact contact happens.
-Region dyadic_region(Shapes& shapes) {
-  const DMat3 swap(DVec3(0, 1, 0), DVec3(0, 0, 1), DVec3(1, 0, 0));
-  const DMat3 axes = shapes.integer(0, 1) == 0 ? DMat3(1.0) : swap;
-  const DVec3 center(shapes.integer(-4, 4), shapes.integer(-4, 4), shapes.integer(-4, 4));
-  if (shapes.integer(0, 1) == 0)
-    return Obb{center, axes,
-               DVec3(shapes.integer(0, 3), shapes.integer(1, 3), shapes.integer(1, 3))};
-  return Frustum{center, axes, DVec2(1, 0.5 * shapes.integer(1, 4)), 0.5 * shapes.integer(0, 2),
-                 shapes.integer(2, 8) * 0.5};
-}
-Vec3 dyadic_point(Shapes& shapes) {
-  return {0.5F * static_cast<float>(shapes.integer(-14, 14)),
-          0.5F * static_cast<float>(shapes.integer(-14, 14)),
-          0.5F * static_cast<float>(shapes.integer(-14, 14))};
+// A region whose face passes a point up to the rounding of its own parameters, with something that
+// reaches from the point away from it: contact is then a matter of the last bit.
+struct Contact {
+  Region region;
+  Vec3 point;
+  Triangle triangle;
+  Aabb box;
+};
+Contact contact(Shapes& shapes) {
+  const double scale = shapes.scale();
+  Contact c;
+  c.point = Vec3(scale * shapes.vector());
+  const int k = shapes.integer(0, 1);
+  DVec3 outwards(0);
+  DMat3 axes(1.0);
+  if (shapes.integer(0, 1) == 0) {
+    Obb b = shapes.obb(scale);
+    const DVec3 q = glm::transpose(b.axes) * (DVec3(c.point) - b.center);
+    b.half_size = 10 * scale * DVec3(1);
+    b.half_size[k] = std::abs(q[k]);
+    outwards[k] = std::copysign(1, q[k]);
+    axes = b.axes;
+    c.region = b;
+  } else {
+    Frustum f = shapes.frustum(scale);
+    f.eye = DVec3(c.point) -
+            f.axes * (scale * DVec3(shapes.uniform(), shapes.uniform(), shapes.uniform(0.1, 1)));
+    const DVec3 q = glm::transpose(f.axes) * (DVec3(c.point) - f.eye);
+    f.tan_half = DVec2(100);
+    f.tan_half[k] = std::abs(q[k]) / q.z;
+    f.near = 0;
+    f.far = 10 * scale;
+    outwards = DVec3(0, 0, -f.tan_half[k]);
+    outwards[k] = std::copysign(1, q[k]);
+    axes = f.axes;
+    c.region = f;
+  }
+  const DVec3 normal = axes * glm::normalize(outwards);
+  const auto away = [&] {
+    const DVec3 v = scale * shapes.vector();
+    return Vec3(DVec3(c.point) + v + (0.1 * scale + std::abs(glm::dot(v, normal))) * normal);
+  };
+  c.triangle = {c.point, away(), away()};
+  c.box = {c.point, c.point};
+  for (int j = 0; j < 3; ++j) {
+    const float reach = static_cast<float>(scale * shapes.uniform(0, 1));
+    if (normal[j] > 0) c.box.max[j] += reach;
+    if (normal[j] < 0) c.box.min[j] -= reach;
+  }
+  return c;
 }
 
 void compare_overlaps(unsigned seed, int count) {
   Shapes shapes(seed);
-  Tally boxes, triangles, dyadic;
+  Tally boxes, triangles, dyadic, contacts;
   for (int i = 0; i < count; ++i) {
     const double scale = shapes.scale();
     const Region region = shapes.region(scale);
@@ -80,10 +115,17 @@ void compare_overlaps(unsigned seed, int count) {
     if (triangle_truth) REQUIRE(triangle_ours);
     triangles.add(triangle_ours, triangle_truth);
 
-    const Region grid = dyadic_region(shapes);
-    const Vec3 a = dyadic_point(shapes), b = dyadic_point(shapes);
+    const Contact c = contact(shapes);
+    const bool contact_truth = exact::overlaps(c.region, c.triangle);
+    if (contact_truth) REQUIRE(overlaps(c.region, c.triangle));
+    contacts.add(overlaps(c.region, c.triangle), contact_truth);
+    if (exact::overlaps(c.region, c.box)) REQUIRE(overlaps(c.region, c.box));
+    if (exact::contains(c.region, c.point)) REQUIRE(contains(c.region, c.point));
+
+    const Region grid = shapes.grid_region();
+    const Vec3 a = shapes.grid_point(), b = shapes.grid_point();
     const Aabb grid_box{glm::min(a, b), glm::max(a, b)};
-    const Triangle grid_triangle{a, b, dyadic_point(shapes)};
+    const Triangle grid_triangle{a, b, shapes.grid_point()};
     const bool grid_truth = exact::overlaps(grid, grid_box);
     if (grid_truth) REQUIRE(overlaps(grid, grid_box));
     dyadic.add(overlaps(grid, grid_box), grid_truth);
@@ -98,8 +140,9 @@ void compare_overlaps(unsigned seed, int count) {
   report("boxes", boxes);
   report("triangles", triangles);
   report("on a grid", dyadic);
+  report("in contact up to rounding", contacts);
   // Enough of either, and separation is found but for contacts within rounding.
-  for (const Tally& t : {boxes, triangles, dyadic}) {
+  for (const Tally& t : {boxes, triangles, dyadic, contacts}) {
     CHECK(t.touching > count / 10);
     CHECK(t.apart > count / 20);
   }
@@ -114,8 +157,8 @@ void compare_points(unsigned seed, int count) {
   for (int i = 0; i < count; ++i) {
     const double scale = shapes.scale();
     const bool grid = i % 4 == 0;
-    const Region region = grid ? dyadic_region(shapes) : shapes.region(scale);
-    Vec3 p = grid ? dyadic_point(shapes) : Vec3(scale * shapes.vector());
+    const Region region = grid ? shapes.grid_region() : shapes.region(scale);
+    Vec3 p = grid ? shapes.grid_point() : Vec3(scale * shapes.vector());
     if (i % 4 == 1) {
       const auto places = places_of(region);
       p = places[static_cast<std::size_t>(shapes.integer(0, 10))];

@@ -81,6 +81,10 @@ struct Scene {
   Aabb box;
 };
 Scene random_scene(Shapes& shapes) {
+  if (shapes.integer(0, 3) == 0) {
+    if (shapes.integer(0, 1) == 0) return {PlaneArea{shapes.grid_obb(1)}, shapes.grid_box()};
+    return {PointArea{shapes.grid_frustum(), some_measure(shapes)}, shapes.grid_box()};
+  }
   const double scale = shapes.scale();
   const Aabb box = shapes.box(scale);
   if (shapes.integer(0, 1) == 0) {

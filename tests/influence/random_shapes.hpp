@@ -61,4 +61,32 @@ struct Shapes {
         return frustum(scale);
     }
   }
+
+  // Shapes on a grid, so that faces, edges and corners meet exactly.
+  pah::Vec3 grid_point() {
+    const auto coordinate = [this] { return 0.5F * static_cast<float>(integer(-14, 14)); };
+    return {coordinate(), coordinate(), coordinate()};
+  }
+  pah::Aabb grid_box() {
+    const pah::Vec3 a = grid_point(), b = grid_point();
+    return {glm::min(a, b), glm::max(a, b)};
+  }
+  pah::DMat3 grid_axes() {
+    const pah::DMat3 turned(pah::DVec3(0, 1, 0), pah::DVec3(0, 0, 1), pah::DVec3(1, 0, 0));
+    const pah::DMat3 flipped(pah::DVec3(0, 1, 0), pah::DVec3(1, 0, 0), pah::DVec3(0, 0, -1));
+    const int n = integer(0, 2);
+    return n == 0 ? pah::DMat3(1.0) : n == 1 ? turned : flipped;
+  }
+  pah::Obb grid_obb(int smallest = 0) {
+    return {pah::DVec3(integer(-4, 4), integer(-4, 4), integer(-4, 4)), grid_axes(),
+            pah::DVec3(integer(smallest, 3), integer(1, 3), integer(1, 3))};
+  }
+  pah::Frustum grid_frustum() {
+    return {pah::DVec3(integer(-4, 4), integer(-4, 4), integer(-4, 4)), grid_axes(),
+            pah::DVec2(1, 0.5 * integer(1, 4)), 0.5 * integer(0, 2), 0.5 * integer(2, 8)};
+  }
+  pah::Region grid_region() {
+    if (integer(0, 1) == 0) return grid_obb();
+    return grid_frustum();
+  }
 };
