@@ -1,0 +1,39 @@
+// Vertices of triangles that arrive corner by corner, merged where they are equal to the last bit.
+#pragma once
+
+#include <cstdint>
+#include <pah/scene/mesh.hpp>
+#include <vector>
+
+namespace pah {
+
+// What a mesh is made of: normals and texture coordinates are all there or not at all.
+class MeshBuilder {
+ public:
+  MeshBuilder(bool has_normals, bool has_uvs, std::size_t expected_triangles);
+
+  // The index of the vertex. `normal` and `uv` are ignored where the mesh has none.
+  std::uint32_t add_vertex(const Vec3& position, const Vec3& normal, const Vec2& uv);
+  void add_triangle(const UVec3& triangle) { mesh_.triangles.push_back(triangle); }
+
+  [[nodiscard]] std::size_t vertices() const { return mesh_.positions.size(); }
+  [[nodiscard]] std::size_t triangles() const { return mesh_.triangles.size(); }
+  [[nodiscard]] Mesh take();
+
+ private:
+  [[nodiscard]] std::uint64_t hash(std::uint32_t vertex) const;
+  [[nodiscard]] bool same(std::uint32_t a, std::uint32_t b) const;
+  void grow();
+
+  Mesh mesh_;
+  bool has_normals_;
+  bool has_uvs_;
+  std::vector<std::uint32_t> table_;  // open addressing over a power of 2; vertex + 1, or 0
+};
+
+// Replaces the normals by the mean of those of the triangles around each position, weighted by
+// their angle there, whatever seams the texture coordinates have (Thuermer, Wuethrich, "Computing
+// Vertex Normals from Polygonal Facets", JGT 1998).
+void smooth_normals(Mesh& mesh);
+
+}  // namespace pah
