@@ -39,6 +39,7 @@ class SceneFiles {
                                             std::uint64_t most_bytes);
 
   ContentHash& hash() { return hash_; }
+  [[nodiscard]] const std::filesystem::path& folder() const { return folder_; }
 
  private:
   std::filesystem::path folder_;

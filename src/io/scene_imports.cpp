@@ -2,6 +2,8 @@
 
 #include <type_traits>
 
+#include "io/mesh_file_access.hpp"
+
 namespace pah {
 namespace {
 
@@ -132,9 +134,16 @@ const ImportedFile* import_file(SceneReading& reading, const YamlNode& node, con
   options.file_bytes = reading.limits.mesh_file_bytes;
   options.triangles =
       reading.limits.triangles - std::min(reading.triangles, reading.limits.triangles);
+  // A mesh of the scene's own may share what lies anywhere in the scene.
+  if (lies_in(*path, reading.files.folder())) options.folder = reading.files.folder();
   try {
     MeshFile file;
-    throw MeshFileError("mesh files are not read yet");
+    if (whole) {
+      file = read_mesh_file(*path, options);
+    } else {
+      file.meshes.push_back(read_mesh(*path, options));
+      file.parts.emplace_back();
+    }
     return &reading.imported.emplace(key, add_file(reading, std::move(file), node.mark))
                 .first->second;
   } catch (const MeshFileError& error) {
