@@ -1,7 +1,10 @@
 // Acceleration never changes an answer: to the last bit.
 
+#include <hwy/highway.h>
+
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <limits>
 
 #include "catch.hpp"
@@ -68,6 +71,36 @@ TEST_CASE("A global BVH answers like brute force, bit for bit") {
       CHECK(std::count_if(expected.hits.begin(), expected.hits.end(),
                           [](const Hit& hit) { return hit.valid(); }) > 100);
     }
+  }
+}
+
+TEST_CASE("Every instruction set gives the same answers") {
+  const Soup soup = random_soup(3000, 0.2F, Vec3{0}, 10);
+  const std::vector<Ray> rays = rays_for(soup, 4000, 43);
+  const auto bvh = make_global_bvh(soup.triangles());
+  const Answers expected = ask(*make_brute_force(soup.triangles()), rays);
+  const std::vector<std::int64_t> targets = hwy::SupportedAndGeneratedTargets();
+  CHECK_FALSE(targets.empty());
+  for (const std::int64_t target : targets) {
+    INFO(hwy::TargetName(target));
+    hwy::SetSupportedTargetsForTest(target);
+    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+    check_same(expected, ask(*bvh, rays));
+  }
+  hwy::SetSupportedTargetsForTest(0);
+  hwy::GetChosenTarget().DeInit();
+}
+
+TEST_CASE("Only triangles at most t_max away count, and that far they do") {
+  Soup soup{"plane", {{-9, 0, -9}, {9, 0, -9}, {0, 0, 9}}, {{0, 1, 2}}};
+  std::vector<Ray> rays(2, Ray{{0, 2, 0}, 2, {0, -1, 0}});
+  rays[1].t_max = std::nextafter(2.0F, 0.0F);
+  for (auto* make : {&make_brute_force, &make_global_bvh}) {
+    const Answers answers = ask(*make(soup.triangles()), rays);
+    CHECK(answers.hits[0].t == 2);
+    CHECK(answers.occluded[0] == 1);
+    CHECK_FALSE(answers.hits[1].valid());
+    CHECK(answers.occluded[1] == 0);
   }
 }
 
