@@ -104,6 +104,7 @@ class Builder {
       : items_(items),
         bins_(std::clamp(config.bins, 2U, max_bins)),
         max_leaf_(std::max(config.max_leaf, 1U)),
+        side_by_side_(std::max(config.side_by_side, 1U)),
         heuristic_(heuristic),
         // A subtree of n items has at most 2n - 1 nodes: each range has its own slots, so that
         // tasks need not agree on who takes which.
@@ -163,14 +164,13 @@ class Builder {
     const auto count = static_cast<std::uint32_t>(items.size());
     if (depth >= max_cost_depth) return count <= max_leaf_ ? 0 : halve(items, node.centroids);
 
-    // Few items need few bins; a power of two or not, only the extents scale.
+    // Few items need few bins.
     const std::uint32_t bins = std::min(bins_, std::max(4U, 2 * count));
     const Binning binning(node.centroids, bins, heuristic_.axes(node.box));
     const Split best = cheapest(items, binning);
     const float area = heuristic_.area(node.box);
-    const float leaf_cost = triangle_cost * static_cast<float>(count) * area;
-    const float split_cost = 2 * box_cost * area + triangle_cost * best.cost;
-    if (count <= max_leaf_ && !(split_cost < leaf_cost)) return 0;
+    const float split_cost = 2 * box_cost * area + best.cost;
+    if (count <= max_leaf_ && !(split_cost < leaf_cost(count, side_by_side_) * area)) return 0;
     if (best.bin == 0) return halve(items, node.centroids);
 
     const auto middle = std::partition(items.begin(), items.end(), [&](const Item& item) {
@@ -215,15 +215,17 @@ class Builder {
     for (std::uint32_t i = count - 1; i > 0; --i) {
       right.box.extend(bins[i].box);
       right.count += bins[i].count;
-      right_cost[i] = right.count > 0 ? heuristic_.area(right.box) * static_cast<float>(right.count)
-                                      : std::numeric_limits<float>::infinity();
+      right_cost[i] = right.count > 0
+                          ? heuristic_.area(right.box) * leaf_cost(right.count, side_by_side_)
+                          : std::numeric_limits<float>::infinity();
     }
     Bin left;
     for (std::uint32_t i = 1; i < count; ++i) {
       left.box.extend(bins[i - 1].box);
       left.count += bins[i - 1].count;
       if (left.count == 0 || right_cost[i] == std::numeric_limits<float>::infinity()) continue;
-      const float cost = heuristic_.area(left.box) * static_cast<float>(left.count) + right_cost[i];
+      const float cost =
+          heuristic_.area(left.box) * leaf_cost(left.count, side_by_side_) + right_cost[i];
       if (cost < best.cost) best = {cost, axis, i};
     }
   }
@@ -266,6 +268,7 @@ class Builder {
   std::vector<Item>& items_;
   std::uint32_t bins_;
   std::uint32_t max_leaf_;
+  std::uint32_t side_by_side_;
   const Heuristic& heuristic_;
   std::vector<BinaryTree::Node> nodes_;
   tbb::task_group tasks_;

@@ -25,30 +25,48 @@ HWY_INLINE std::uint32_t bits(D d, M mask) {
   return bytes[0];
 }
 
-// Which children's intervals the ray meets within [0, limit]; `near` is where they start.
-HWY_INLINE std::uint32_t meet_children(const BvhNode& node, const PreparedRay& ray, float limit,
-                                       float* HWY_RESTRICT near) {
-  const hn::CappedTag<float, BvhNode::width> d;
-  std::uint32_t hits = 0;
-  for (std::size_t lane = 0; lane < BvhNode::width; lane += hn::Lanes(d)) {
-    auto start = hn::Zero(d);
-    auto end = hn::Set(d, limit);
+// What the slab test needs of a ray, held in registers while it is traversed.
+struct SlabRay {
+  using D = hn::CappedTag<float, BvhNode::width>;
+  hn::Vec<D> inverse[3];
+  hn::Vec<D> near_origin[3];
+  hn::Vec<D> far_origin[3];
+  std::size_t near_planes[3];  // where in a node, in floats
+  std::size_t far_planes[3];
+
+  HWY_INLINE explicit SlabRay(const PreparedRay& ray) {
+    const D d;
     for (int axis = 0; axis < 3; ++axis) {
-      const auto inverse = hn::Set(d, ray.inverse[axis]);
-      const float* near_planes = node.planes[axis][ray.negative[axis]];
-      const float* far_planes = node.planes[axis][1 - ray.negative[axis]];
-      start = hn::Max(start, hn::Mul(hn::Sub(hn::Load(d, near_planes + lane),
-                                             hn::Set(d, ray.near_origin[axis])),
-                                     inverse));
-      end = hn::Min(
-          end, hn::Mul(hn::Sub(hn::Load(d, far_planes + lane), hn::Set(d, ray.far_origin[axis])),
-                       inverse));
+      inverse[axis] = hn::Set(d, ray.inverse[axis]);
+      near_origin[axis] = hn::Set(d, ray.near_origin[axis]);
+      far_origin[axis] = hn::Set(d, ray.far_origin[axis]);
+      const std::size_t plane = 2 * static_cast<std::size_t>(axis);
+      near_planes[axis] = (plane + ray.negative[axis]) * BvhNode::width;
+      far_planes[axis] = (plane + 1 - ray.negative[axis]) * BvhNode::width;
     }
-    hn::Store(start, d, near + lane);
-    hits |= bits(d, hn::Le(start, end)) << lane;
   }
-  return hits;
-}
+
+  // Which children's intervals the ray meets within [0, limit]; `near` is where they start.
+  HWY_INLINE std::uint32_t meet_children(const BvhNode& node, float limit,
+                                         float* HWY_RESTRICT near) const {
+    const D d;
+    const float* planes = node.planes[0][0];
+    std::uint32_t hits = 0;
+    for (std::size_t lane = 0; lane < BvhNode::width; lane += hn::Lanes(d)) {
+      auto start = hn::Zero(d);
+      auto end = hn::Set(d, limit);
+      for (int axis = 0; axis < 3; ++axis) {
+        const auto near_plane = hn::Load(d, planes + near_planes[axis] + lane);
+        const auto far_plane = hn::Load(d, planes + far_planes[axis] + lane);
+        start = hn::Max(start, hn::Mul(hn::Sub(near_plane, near_origin[axis]), inverse[axis]));
+        end = hn::Min(end, hn::Mul(hn::Sub(far_plane, far_origin[axis]), inverse[axis]));
+      }
+      hn::Store(start, d, near + lane);
+      hits |= bits(d, hn::Le(start, end)) << lane;
+    }
+    return hits;
+  }
+};
 
 // Which triangles pass the signs of the edge functions: the formulas of ray_triangle.hpp, side by
 // side. Survivors are few, and the shared rule decides them.
@@ -115,6 +133,7 @@ HWY_INLINE void prefetch(const Bvh& bvh, ChildRef child) {
 template <bool counting>
 HWY_INLINE void closest(const Bvh& bvh, const PreparedRay& ray, Hit& best,
                         TraversalCounts& counts) {
+  const SlabRay slabs(ray);
   HWY_ALIGN float near[BvhNode::width];
   Entry stack[stack_size];
   Entry* top = stack;
@@ -123,7 +142,7 @@ HWY_INLINE void closest(const Bvh& bvh, const PreparedRay& ray, Hit& best,
     if (counting) ++counts.nodes;
     if (!current.is_leaf()) {
       const BvhNode& node = bvh.nodes[current.node()];
-      std::uint32_t hits = meet_children(node, ray, best.t, near);
+      std::uint32_t hits = slabs.meet_children(node, best.t, near);
       if (hits != 0) {
         // Goes on with the nearest; the others wait, the nearest of them on top.
         std::uint32_t k = lowest_bit(hits);
@@ -164,6 +183,7 @@ HWY_INLINE void closest(const Bvh& bvh, const PreparedRay& ray, Hit& best,
 
 template <bool counting>
 HWY_INLINE bool any(const Bvh& bvh, const PreparedRay& ray, TraversalCounts& counts) {
+  const SlabRay slabs(ray);
   HWY_ALIGN float near[BvhNode::width];
   ChildRef stack[stack_size];
   ChildRef* top = stack;
@@ -173,7 +193,7 @@ HWY_INLINE bool any(const Bvh& bvh, const PreparedRay& ray, TraversalCounts& cou
     if (counting) ++counts.nodes;
     if (!child.is_leaf()) {
       const BvhNode& node = bvh.nodes[child.node()];
-      std::uint32_t hits = meet_children(node, ray, ray.t_max, near);
+      std::uint32_t hits = slabs.meet_children(node, ray.t_max, near);
       for (; hits != 0; hits &= hits - 1) *top++ = node.children[lowest_bit(hits)];
       continue;
     }

@@ -8,10 +8,10 @@
 // The origin is padded (near planes are seen from further along the direction, far planes from
 // further back), which widens every box by the same amount at no cost per box. With M the largest
 // distance along an axis from the origin to a corner of the scene, the padding must cover
-//   6 u M: sheared vertices of the triangle test (u = unit roundoff; ray_triangle.hpp), and
+//   7 u M: sheared vertices of the triangle test (u = unit roundoff; ray_triangle.hpp), and
 //   3 u M: the slab formula itself: difference, reciprocal, product. Ize ("Robust BVH Ray
 //          Traversal", JCGT 2013) widens t_far for this; padding the planes covers both ends.
-// rounding_bound(10) leaves one u for terms of second order. Adding the padding to the origin
+// rounding_bound(11) leaves one u for terms of second order. Adding the padding to the origin
 // rounds, too: 2 u |origin| more make up for that.
 //
 // A zero of the direction would give 0 * infinity; its inverse is the largest float instead, with
@@ -57,14 +57,14 @@ inline constexpr float max_direction = 0x1p100F;
   PreparedRay prepared;
   const Vec3 size = glm::abs(ray.direction);
   const float largest = std::max(size.x, std::max(size.y, size.z));
-  const bool usable = size.x <= max_direction && size.y <= max_direction &&
-                      size.z <= max_direction && largest >= min_direction &&
+  // A sum is NaN if any summand is, and infinite or NaN if any is infinite.
+  const bool usable = size.x + size.y + size.z <= 3 * max_direction && largest >= min_direction &&
                       std::isfinite(ray.origin.x) && std::isfinite(ray.origin.y) &&
                       std::isfinite(ray.origin.z) && ray.t_max > 0;
   if (!usable) return prepared;
 
   const Vec3 reach = glm::max(scene.max - ray.origin, ray.origin - scene.min);
-  const float padding = rounding_bound(10) * std::max(reach.x, std::max(reach.y, reach.z));
+  const float padding = rounding_bound(11) * std::max(reach.x, std::max(reach.y, reach.z));
   for (int i = 0; i < 3; ++i) {
     const float huge = std::numeric_limits<float>::max();
     const float inverse = std::clamp(1.0F / ray.direction[i], -huge, huge);
@@ -75,15 +75,14 @@ inline constexpr float max_direction = 0x1p100F;
     prepared.far_origin[i] = ray.origin[i] - pad;
   }
 
-  const int z = size.x == largest ? 0 : size.y == largest ? 1 : 2;
-  const int x = (z + 1) % 3;
-  const int y = (z + 2) % 3;
-  prepared.axes = {static_cast<std::uint8_t>(x), static_cast<std::uint8_t>(y),
-                   static_cast<std::uint8_t>(z)};
+  const std::uint8_t z = size.x == largest ? 0 : size.y == largest ? 1 : 2;
+  const std::uint8_t x = z == 2 ? 0 : z + 1;
+  const std::uint8_t y = z == 0 ? 2 : z - 1;
+  prepared.axes = {x, y, z};
   prepared.origin = ray.origin;
-  prepared.shear_x = ray.direction[x] / ray.direction[z];
-  prepared.shear_y = ray.direction[y] / ray.direction[z];
-  prepared.scale_z = 1.0F / ray.direction[z];
+  prepared.scale_z = prepared.inverse[z];
+  prepared.shear_x = ray.direction[x] * prepared.scale_z;
+  prepared.shear_y = ray.direction[y] * prepared.scale_z;
   prepared.t_max = std::min(ray.t_max, std::numeric_limits<float>::max());
   return prepared;
 }

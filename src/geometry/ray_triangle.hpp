@@ -20,7 +20,8 @@
 // vertices: rounding is monotone, so a float difference of float products errs in sign only by
 // being zero, and then doubles decide (products of floats are exact in double). The line thus meets
 // a triangle whose vertices are off by a rounding: with u the unit roundoff, |V - O| <= M and
-// |shear| <= 1, x - shear * z is off by u M (x) + 3 u M (shear * z) + 2 u M (difference) = 6 u M.
+// |shear| <= 1, x - shear * z is off by u M (x) + 4 u M (shear * z: shear is a product with a
+// reciprocal) + 2 u M (difference) = 7 u M.
 // The padding of ray_box.hpp is larger than that. Two triangles with a shared edge compute its edge
 // function with opposite signs and the same digits, hence no crack.
 #pragma once
@@ -108,6 +109,10 @@ template <typename Real>
                                  const ShearedVertex& p, const ShearedVertex& q,
                                  const ShearedVertex& r, const EdgeFunctions<float>& edge,
                                  float t_limit, TriangleHit& hit) {
+  // First, because it is cheap and rejects what is behind the origin or beyond the limit.
+  const SlabInterval interval = intersect_box(ray, triangle.bounds());
+  if (!(interval.near <= std::min(interval.far, t_limit))) return false;
+
   // Doubles decide zeros, and take over where float would lose digits at the ends of its range.
   const float determinant = std::abs(edge.a + edge.b + edge.c);
   const bool easy = edge.a != 0 && edge.b != 0 && edge.c != 0 && determinant >= 0x1p-100F &&
@@ -121,9 +126,6 @@ template <typename Real>
     weights = barycentrics(exact);
   }
   if (weights.inverse_determinant == 0) return false;
-
-  const SlabInterval interval = intersect_box(ray, triangle.bounds());
-  if (!(interval.near <= interval.far)) return false;
 
   const float depth = weights.a * p.z + weights.b * q.z + weights.c * r.z;
   const float t = depth * ray.scale_z;

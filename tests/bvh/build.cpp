@@ -77,6 +77,7 @@ TEST_CASE("Trees hold every triangle once, in tight boxes") {
     for (const std::uint32_t max_leaf : {1U, 4U, 16U}) {
       BuildConfig config;
       config.max_leaf = max_leaf;
+      config.side_by_side = max_leaf;
       CHECK(check_tree(build_tree(std::span(boxes), config), boxes, max_leaf) <= max_depth);
     }
   }
@@ -123,7 +124,8 @@ TEST_CASE("Lopsided input makes a tree of bounded depth") {
     const float size = std::ldexp(1.0F, 120 - i);
     boxes.insert(boxes.end(), 100, Aabb{Vec3{0}, Vec3{size}});
   }
-  CHECK(check_tree(build_tree(std::span<const Aabb>(boxes)), boxes, 4) <= max_depth);
+  CHECK(check_tree(build_tree(std::span<const Aabb>(boxes)), boxes, BuildConfig{}.max_leaf) <=
+        max_depth);
 }
 
 TEST_CASE("Boxes at the ends of float's range are split") {
@@ -134,7 +136,8 @@ TEST_CASE("Boxes at the ends of float's range are split") {
     const Vec3 p = random.in_box({Vec3{-1}, Vec3{1}}) * (i % 2 == 0 ? huge : 1e-44F);
     boxes.push_back({p, p});
   }
-  CHECK(check_tree(build_tree(std::span<const Aabb>(boxes)), boxes, 4) <= max_depth);
+  CHECK(check_tree(build_tree(std::span<const Aabb>(boxes)), boxes, BuildConfig{}.max_leaf) <=
+        max_depth);
 }
 
 TEST_CASE("Splits by cost beat splits by halves") {
@@ -144,7 +147,8 @@ TEST_CASE("Splits by cost beat splits by halves") {
   };
   const BinaryTree sah = build_tree(std::span<const Aabb>(boxes));
   const BinaryTree blind = build_tree(std::span<const Aabb>(boxes), BuildConfig{}, Blind{});
-  CHECK(expected_cost(sah, SurfaceArea{}) < 0.9 * expected_cost(blind, SurfaceArea{}));
+  CHECK(expected_cost(sah, BuildConfig{}, SurfaceArea{}) <
+        0.9 * expected_cost(blind, BuildConfig{}, SurfaceArea{}));
 }
 
 TEST_CASE("A heuristic decides which axis is split") {
@@ -159,7 +163,8 @@ TEST_CASE("A heuristic decides which axis is split") {
   struct OnlyX : SurfaceArea {
     [[nodiscard]] AxisMask axes(const Aabb&) const { return 0b001; }
   };
-  const BinaryTree tree = build_tree(std::span<const Aabb>(boxes), BuildConfig{}, OnlyX{});
+  const BinaryTree tree =
+      build_tree(std::span<const Aabb>(boxes), {.max_leaf = 4, .side_by_side = 1}, OnlyX{});
   REQUIRE(tree.nodes.size() > 32);
   std::uint32_t overlaps = 0;
   for (const BinaryTree::Node& node : tree.nodes) {

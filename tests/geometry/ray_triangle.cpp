@@ -231,6 +231,30 @@ TEST_CASE("A ray does not hit the triangle whose corner or inside it leaves") {
   CHECK(self_hits == 0);
 }
 
+TEST_CASE("What is hit from near a triangle's surface is in front, beyond doubt") {
+  test::Random random(13);
+  const Aabb unit{Vec3{-1}, Vec3{1}};
+  std::uint32_t hits = 0;
+  std::uint32_t behind = 0;
+  for (int i = 0; i < 300000; ++i) {
+    const Triangle triangle{random.in_box(unit), random.in_box(unit), random.in_box(unit)};
+    const float f = random.uniform(0, 1);
+    const float g = random.uniform(0, 1 - f);
+    Ray ray{triangle.a + f * (triangle.b - triangle.a) + g * (triangle.c - triangle.a), 1e30F,
+            random.in_box(unit), no_bundle};
+    ray.origin += std::ldexp(1.0F, -20 - static_cast<int>(random.below(6))) * random.in_box(unit);
+    const PreparedRay prepared = prepare(ray, triangle.bounds());
+    TriangleHit hit;
+    if (!intersect_triangle(prepared, triangle, prepared.t_max, hit)) continue;
+    ++hits;
+    const DVec3 a{triangle.a};
+    const DVec3 normal = glm::cross(DVec3{triangle.b} - a, DVec3{triangle.c} - a);
+    behind += glm::dot(a - DVec3{ray.origin}, normal) * glm::dot(DVec3{ray.direction}, normal) < 0;
+  }
+  CHECK(hits > 10);  // the far ones
+  CHECK(behind == 0);
+}
+
 TEST_CASE("A scene scaled by a power of two is hit at t scaled by it, to the last bit") {
   const Soup soup = test::random_soup(50, 0.5F, {3, -2, 1}, 6);
   const std::vector<Ray> rays = test::rays_for(soup, 2000, 8);

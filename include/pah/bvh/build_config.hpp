@@ -8,7 +8,12 @@ namespace pah {
 
 // Expected cost of the two tests of a traversal, in units of the box test.
 inline constexpr float box_cost = 1.0F;
-inline constexpr float triangle_cost = 1.2F;
+inline constexpr float triangle_cost = 1.2F;  // of as many triangles as are tested side by side
+
+// The cost of a leaf if `side_by_side` triangles are tested at a time.
+[[nodiscard]] constexpr float leaf_cost(std::uint32_t triangles, std::uint32_t side_by_side) {
+  return triangle_cost * static_cast<float>((triangles + side_by_side - 1) / side_by_side);
+}
 
 // Bit i set: axis i may be split.
 using AxisMask = std::uint32_t;
@@ -37,8 +42,12 @@ struct SurfaceArea {
 };
 
 struct BuildConfig {
-  std::uint32_t bins = 16;     // per axis, 2 to 64: candidate splits are the borders between them
-  std::uint32_t max_leaf = 4;  // triangles, at least 1: larger leaves are split whatever the cost
+  // Per axis, 2 to 64: the borders between bins are the candidates for a split.
+  std::uint32_t bins = 16;
+  // Triangles, 1 to 32: larger leaves are split whatever the cost.
+  std::uint32_t max_leaf = 8;
+  // Triangles tested at a time, at least 1.
+  std::uint32_t side_by_side = 4;
 };
 
 }  // namespace pah
