@@ -73,7 +73,7 @@ ImportedScene::ImportedScene(const fs::path& file, const MeshFileOptions& option
                         " MB");
   const fs::path folder = folder_of(file, options.folder);
   if (extension == ".obj") scan_obj(file, options.triangles);
-  if (extension == ".ply") scan_ply_header(file);
+  if (extension == ".ply") scan_ply(file);
   if (extension == ".gltf" || extension == ".glb") check_gltf(file, folder, options.file_bytes);
 
   auto* const files = new LimitedFiles(file, folder, options.file_bytes);

@@ -5,8 +5,8 @@
 #include <fstream>
 #include <pah/io/mesh_file.hpp>
 
-#include "../scene/mesh_checks.hpp"
-#include "temporary_folder.hpp"
+#include "support/mesh_checks.hpp"
+#include "support/temporary_folder.hpp"
 
 using namespace pah;
 
@@ -241,23 +241,30 @@ TEST_CASE("OBJ: endless polygons and too many triangles") {
 
 TEST_CASE("PLY and STL: what is broken is said") {
   const TemporaryFolder folder;
-  CHECK(has(error_of(write(folder, "a.ply", ascii_ply("0 0 nan"))).what(), "not finite"));
+  const MeshFileError nan_error = error_of(write(folder, "a.ply", ascii_ply("0 0 nan")));
+  CHECK(has(nan_error.what(), "'nan' is not a finite number"));
+  CHECK(nan_error.line() == 13);
+  CHECK(nan_error.column() == 5);
+  CHECK(nan_error.excerpt() == "0 0 nan");
+  std::string binary_nan = binary_ply();
+  const float no_number = NAN;
+  std::memcpy(binary_nan.data() + binary_nan.find("end_header") + 11 + 16, &no_number, 4);
+  CHECK(has(error_of(write(folder, "a.ply", binary_nan)).what(), "'y' of vertex 1 is not finite"));
   CHECK(
       has(error_of(write(folder, "a.ply", ascii_ply("0 0 1", "3 1 2 4"))).what(), "uses vertex 4"));
   const MeshFileError counts = error_of(write(folder, "a.ply", binary_ply("4000000000")));
   CHECK(has(counts.what(), "too short for 'element vertex 4000000000'"));
   CHECK(counts.line() == 3);
   CHECK(counts.column() == 16);
-  CHECK(has(error_of(write(folder, "a.ply", "")).what(), "header"));
+  CHECK(has(error_of(write(folder, "a.ply", "")).what(), "starts with"));
   CHECK(has(error_of(write(folder, "a.ply", "no\n")).what(), "starts with 'ply'"));
-  for (const std::string& whole : {binary_ply()})
-    for (std::size_t size = 0; size + 20 < whole.size(); ++size) {
+  for (const std::string& whole : {binary_ply(), ascii_ply()})
+    for (std::size_t size = 0; size + 1 < whole.size(); ++size) {
       CAPTURE(size, error_of(write(folder, "a.ply", whole.substr(0, size))).what());
       CHECK_FALSE(error_of(folder / "a.ply").what() == std::string());
     }
   std::string nan = binary_stl();
-  const float value = NAN;
-  std::memcpy(nan.data() + 84 + 12, &value, 4);
+  std::memcpy(nan.data() + 84 + 12, &no_number, 4);
   CHECK(has(error_of(write(folder, "a.stl", nan)).what(), "not finite"));
   for (const std::size_t size : {0, 20, 83, 84, 100, 200})
     CHECK_FALSE(error_of(write(folder, "a.stl", binary_stl().substr(0, size))).what() ==

@@ -4,7 +4,7 @@
 #include <numbers>
 #include <pah/scene/shapes.hpp>
 
-#include "mesh_checks.hpp"
+#include "support/mesh_checks.hpp"
 
 using namespace pah;
 

@@ -5,7 +5,7 @@
 #include <pah/scene/shapes.hpp>
 #include <pah/scene/world.hpp>
 
-#include "mesh_checks.hpp"
+#include "support/mesh_checks.hpp"
 
 using namespace pah;
 

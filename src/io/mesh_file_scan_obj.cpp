@@ -10,63 +10,12 @@
 #include <string_view>
 #include <vector>
 
+#include "io/mesh_file_text.hpp"
+
 namespace pah {
 namespace {
 
 constexpr int max_corners = 10'000;
-
-// An excerpt is a help to the eye, not a copy of the file.
-std::string excerpt_of(std::string_view line) {
-  std::string text(line.substr(0, 120));
-  for (char& c : text)
-    if (static_cast<unsigned char>(c) < ' ') c = ' ';
-  return text;
-}
-
-bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
-
-// The words of one line.
-class Words {
- public:
-  explicit Words(std::string_view line) : line_(line) {}
-
-  // The next word; empty at the end of the line.
-  std::string_view next() {
-    while (at_ < line_.size() && is_blank(line_[at_])) ++at_;
-    const std::size_t begin = at_;
-    while (at_ < line_.size() && !is_blank(line_[at_])) ++at_;
-    return line_.substr(begin, at_ - begin);
-  }
-  [[nodiscard]] int column_of(std::string_view word) const {
-    return static_cast<int>(word.data() - line_.data()) + 1;
-  }
-
- private:
-  std::string_view line_;
-  std::size_t at_ = 0;
-};
-
-// Whether a float can hold the number that the word is; without parsing it where its length tells.
-bool is_finite_number(std::string_view word) {
-  if (!word.empty() && word.front() == '+') word.remove_prefix(1);
-  if (word.empty()) return false;
-  const bool plain = word.size() < 30 && std::all_of(word.begin(), word.end(), [](char c) {
-                       return (c >= '0' && c <= '9') || c == '.' || c == '-';
-                     });
-  const bool starts_well = word.front() != '-' || word.size() > 1;
-  if (plain && starts_well && word.find('-', 1) == std::string_view::npos &&
-      word.find('.') == word.rfind('.') && word != "." && word != "-.")
-    return true;
-  double value = 0;
-  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-  if (end != word.data() + word.size()) return false;
-  if (error == std::errc::result_out_of_range) {
-    // Too small is as good as 0; too large is not.
-    const std::size_t e = word.find_first_of("eE");
-    return e != std::string_view::npos && e + 1 < word.size() && word[e + 1] == '-';
-  }
-  return error == std::errc{} && std::abs(value) <= 3.4028234e38;
-}
 
 // Positions, texture coordinates and normals: how many there are, and the highest that a face has
 // asked for when it was not there yet.
@@ -241,29 +190,6 @@ void scan_obj(const std::filesystem::path& file, std::uint64_t max_triangles) {
   ObjScan scan(max_triangles);
   for_each_line(file, [&](std::string_view line) { scan.line(line); });
   scan.finish();
-}
-
-void scan_ply_header(const std::filesystem::path& file) {
-  std::error_code error;
-  const std::uint64_t bytes = std::filesystem::file_size(file, error);
-  std::ifstream stream(file, std::ios::binary);
-  std::string line;
-  for (int number = 1; number < 1000 && std::getline(stream, line); ++number) {
-    Words words(line);
-    const std::string_view first = words.next();
-    if (number == 1 && first != "ply") throw MeshFileError("a PLY file starts with 'ply'", 1, 1);
-    if (first == "end_header") return;
-    if (first != "element") continue;
-    (void)words.next();
-    const std::string_view word = words.next();
-    std::uint64_t count = 0;
-    const auto [end, wrong] = std::from_chars(word.data(), word.data() + word.size(), count);
-    // Every element takes at least a byte.
-    if (wrong != std::errc{} || end != word.data() + word.size() || count > bytes)
-      throw MeshFileError("the file is too short for '" + excerpt_of(line) + "'", number,
-                          words.column_of(word), excerpt_of(line));
-  }
-  throw MeshFileError("the header does not end");
 }
 
 }  // namespace pah
