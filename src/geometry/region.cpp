@@ -124,21 +124,23 @@ void fill_vertices(RegionShape& shape, const DVec3& origin, Corner corner) {
   shape.box.max = -round_down(-(origin + high + slack));
 }
 
-RegionShape make_shape(const Aabb& box) {
+RegionShape make_shape(const Aabb& box, double dilation) {
   RegionShape shape;
+  shape.box = {round_down(DVec3(box.min) - dilation), -round_down(-(DVec3(box.max) + dilation))};
+  const Vec3& low = shape.box.min;
+  const Vec3& high = shape.box.max;
   for (std::size_t i = 0; i < 8; ++i)
-    shape.vertices[i] = {(i & 1) != 0 ? box.max.x : box.min.x, (i & 2) != 0 ? box.max.y : box.min.y,
-                         (i & 4) != 0 ? box.max.z : box.min.z};
+    shape.vertices[i] = {(i & 1) != 0 ? high.x : low.x, (i & 2) != 0 ? high.y : low.y,
+                         (i & 4) != 0 ? high.z : low.z};
   shape.normals = {DVec3(1, 0, 0), DVec3(0, 1, 0), DVec3(0, 0, 1)};
   shape.edges = shape.normals;
   shape.normal_count = shape.edge_count = 3;
-  shape.box = box;
   return shape;
 }
 
-RegionShape make_shape(const Obb& b) {
+RegionShape make_shape(const Obb& b, double dilation) {
   RegionShape shape;
-  const DVec3 h = b.half_size + 4 * rounding_slack(extent_of(b));
+  const DVec3 h = b.half_size + (dilation + 4 * rounding_slack(extent_of(b) + dilation));
   fill_vertices(shape, b.center,
                 [&](const DVec3& s) { return b.axes * (h * DVec3(s.x, s.y, 2 * s.z - 1)); });
   shape.normals = {b.axes[0], b.axes[1], b.axes[2]};
@@ -147,9 +149,9 @@ RegionShape make_shape(const Obb& b) {
   return shape;
 }
 
-RegionShape make_shape(const Frustum& f) {
+RegionShape make_shape(const Frustum& f, double dilation) {
   RegionShape shape;
-  const double slack = 4 * rounding_slack(extent_of(f));
+  const double slack = dilation + 4 * rounding_slack(extent_of(f) + dilation);
   const DVec2 side_slack = slack * side_lengths(f);
   fill_vertices(shape, f.eye, [&](const DVec3& s) {
     const double z = s.z != 0 ? f.far + slack : f.near - slack;
@@ -198,8 +200,8 @@ float exit_distance(const Region& region, const Ray& ray) {
   return std::visit([&](const auto& r) { return exit_of(r, ray); }, region);
 }
 
-RegionShape shape_of(const Region& region) {
-  return std::visit([](const auto& r) { return make_shape(r); }, region);
+RegionShape shape_of(const Region& region, double dilation) {
+  return std::visit([=](const auto& r) { return make_shape(r, dilation); }, region);
 }
 
 Aabb enclosing_box(const Region& region) { return shape_of(region).box; }

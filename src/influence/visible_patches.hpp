@@ -86,6 +86,7 @@ void for_each_patch(const PictureFrame& frame, const DVec3& low, const DVec3& hi
   const auto times = [](const Linear& a, const Linear& b) {
     return b.x == 0 && b.y == 0 ? b.c * a : a.c * b;
   };
+  const int flat = (low.x == high.x) + (low.y == high.y) + (low.z == high.z);
   Patch cap(frame.half_size);  // where rays start inside the box
   for (int k = 0; k < 3; ++k) {
     const auto axis = static_cast<std::size_t>(k);
@@ -95,7 +96,7 @@ void for_each_patch(const PictureFrame& frame, const DVec3& low, const DVec3& hi
     const int side = sector[k];
     if (side >= 0) cap.clip(above_low);
     if (side <= 0) cap.clip(below_high);
-    if (side == 0) continue;
+    if (side == 0 || flat - (low[k] == high[k]) > 0) continue;  // a face without area
     // The plane of the face is met at depth t / s. Rays enter there where s > 0.
     const double face = side > 0 ? high[k] : low[k];
     const Linear s = -side * frame.slope[axis];
@@ -115,7 +116,7 @@ void for_each_patch(const PictureFrame& frame, const DVec3& low, const DVec3& hi
     }
     if (patch.points().size() >= 3) visit(patch.points());
   }
-  if (cap.points().size() >= 3) visit(cap.points());
+  if (flat == 0 && cap.points().size() >= 3) visit(cap.points());
 }
 
 }  // namespace pah

@@ -205,6 +205,28 @@ TEST_CASE("The predicates agree about what rounding leaves undecided") {
   CHECK(borderline > 1000);
 }
 
+TEST_CASE("A dilated shape reaches as far beyond every face") {
+  const Region regions[] = {Aabb{{-1, -1, 0}, {1, 1, 1}}, Obb{{0, 0, 0.5}, DMat3(1.0), {1, 1, 0.5}},
+                            Frustum{{0, 0, 0}, DMat3(1.0), {1, 1}, 0, 1}};
+  for (const Region& region : regions) {
+    for (const auto& [point, distance] :
+         {std::pair{Vec3(0, 0, 1.25F), 0.25}, {Vec3(0.5F, 0.5F, 1.25F), 0.25}}) {
+      const Triangle t{point, point, point};
+      CHECK_FALSE(overlaps(shape_of(region), t));
+      CHECK_FALSE(overlaps(shape_of(region, 0.99 * distance), t));
+      CHECK(overlaps(shape_of(region, distance), t));
+    }
+  }
+  const Vec3 aside(1, 0, 0.5F);  // sqrt(1/8) from the side of the pyramid
+  const Triangle t{aside, aside, aside};
+  CHECK_FALSE(overlaps(shape_of(regions[2], 0.3535), t));
+  CHECK(overlaps(shape_of(regions[2], 0.3536), t));
+  const Triangle behind{{0, 0, -0.25F}, {0, 0, -0.25F}, {0, 0, -0.25F}};
+  CHECK_FALSE(overlaps(shape_of(regions[2], 0.24), behind));
+  CHECK(overlaps(shape_of(regions[2], 0.25), behind));
+  CHECK(shape_of(Aabb{}).box.empty());
+}
+
 // Errata, appendix A.7 and eq. 5.4: the fourth row of the printed matrix gives w = 0.
 TEST_CASE("The thesis's perspective matrix loses the depth that containment needs") {
   const double near = 1, far = 10;  // 90 degrees, looking along +z as the thesis prints it

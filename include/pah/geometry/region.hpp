@@ -55,7 +55,9 @@ struct RegionShape {
   int normal_count = 0, edge_count = 0;
   Aabb box;  // encloses the vertices, rounded outwards
 };
-[[nodiscard]] RegionShape shape_of(const Region& region);
+// `dilation` pushes the faces outwards by a length >= 0: by the rounding error of whatever decides
+// hits, where a hit that exact arithmetic places just outside must not be lost.
+[[nodiscard]] RegionShape shape_of(const Region& region, double dilation = 0);
 
 [[nodiscard]] Aabb enclosing_box(const Region& region);
 
