@@ -129,6 +129,9 @@ float importance(const DistantBounds& bounds, const LitPoint& at) {
 LightSampler::LightSampler(std::vector<Placed> placed, std::vector<Distant> distant,
                            std::size_t lights)
     : distant_(std::move(distant)) {
+  if (placed.size() + distant_.size() == 1) {
+    only_ = distant_.empty() ? placed.front().light : distant_.front().light;
+  }
   if (placed.size() <= few_lights) {
     placed_ = std::move(placed);
     return;
@@ -209,6 +212,7 @@ float LightSampler::placed_importance(const LitPoint& at) const {
 }
 
 std::optional<LightChoice> LightSampler::choose(const LitPoint& at, float u) const {
+  if (only_ != no_light) return LightChoice{only_, 1};
   const float placed = placed_importance(at);
   float total = placed;
   for (const Distant& light : distant_) total += importance(light.bounds, at);
@@ -258,6 +262,7 @@ std::optional<LightChoice> LightSampler::choose(const LitPoint& at, float u) con
 }
 
 float LightSampler::probability(const LitPoint& at, LightId light) const {
+  if (only_ != no_light) return light == only_ ? 1 : 0;
   const float placed = placed_importance(at);
   float total = placed, own = 0;
   for (const Distant& other : distant_) {

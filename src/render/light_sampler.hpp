@@ -66,6 +66,9 @@ class LightSampler {
 
   [[nodiscard]] bool empty() const { return distant_.empty() && placed_.empty() && nodes_.empty(); }
 
+  // The light to ask where there is no choice, or no_light.
+  [[nodiscard]] LightId only() const { return only_; }
+
   // Nothing where no light is estimated to contribute. u in [0, 1).
   [[nodiscard]] std::optional<LightChoice> choose(const LitPoint& at, float u) const;
   [[nodiscard]] float probability(const LitPoint& at, LightId light) const;
@@ -81,6 +84,7 @@ class LightSampler {
   std::uint32_t build(std::span<Placed> lights, std::uint32_t parent, int depth);
   [[nodiscard]] float placed_importance(const LitPoint& at) const;
 
+  LightId only_ = no_light;  // if there is just one, there is nothing to choose
   std::vector<Distant> distant_;
   std::vector<Placed> placed_;  // if there are few: no tree then
   std::vector<Node> nodes_;

@@ -307,8 +307,9 @@ std::optional<LightSample> Lights::sample_area(const AreaEmitter& emitter, const
   const Triangle triangle = world_.triangles()[index];
   const double omega = solid_angle(triangle, at.position);
   const bool by_solid_angle = sampled_by_solid_angle(omega);
-  const std::optional<Vec2> b = by_solid_angle ? sample_solid_angle(triangle, at.position, u2)
-                                               : std::optional<Vec2>(sample_uniform_triangle(u2));
+  const std::optional<Vec2> b = by_solid_angle
+                                    ? sample_solid_angle(triangle, at.position, omega, u2)
+                                    : std::optional<Vec2>(sample_uniform_triangle(u2));
   if (!b) return std::nullopt;
   const float b0 = 1 - b->x - b->y;
   SurfacePoint point;

@@ -11,6 +11,11 @@
 
 namespace pah {
 
+// A path through so many masked surfaces in a row is stuck between two of them.
+inline constexpr std::uint32_t most_passes = 4096;
+
+inline bool is_black(const Vec3& color) { return color == Vec3(0); }
+
 // One path under way. Its ray is in PathBatch::rays at the same place.
 struct Path {
   Sampler sampler{0, 0, 0, 0};

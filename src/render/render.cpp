@@ -1,11 +1,13 @@
 #include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/enumerable_thread_specific.h>
+#include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
 
 #include <algorithm>
 #include <chrono>
 #include <mutex>
+#include <optional>
 #include <pah/render/render.hpp>
 
 #include "render/path_tracer.hpp"
@@ -118,6 +120,12 @@ RenderResult render(const World& world, const Accelerator& accelerator, const Fi
                     static_cast<double>(pixels) * static_cast<double>(settings.samples));
   const auto stopped = [&] { return options.stop != nullptr && options.stop->load(); };
 
+  // More threads than processors are granted if asked for.
+  std::optional<tbb::global_control> allowance;
+  if (options.threads > tbb::this_task_arena::max_concurrency()) {
+    allowance.emplace(tbb::global_control::max_allowed_parallelism,
+                      static_cast<std::size_t>(options.threads));
+  }
   tbb::task_arena arena(options.threads > 0 ? options.threads : tbb::task_arena::automatic);
   tbb::enumerable_thread_specific<PathBatch> batches(
       [&] { return tracer.make_batch(batch_capacity); });

@@ -12,10 +12,6 @@ DVec3 orthonormal_to(const DVec3& v, const DVec3& w) {
   return glm::normalize(v - glm::dot(v, w) * w);
 }
 
-double angle_between(const DVec3& a, const DVec3& b) {
-  return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
-}
-
 }  // namespace
 
 double solid_angle(const Triangle& triangle, const Vec3& from) {
@@ -35,21 +31,23 @@ bool sampled_by_solid_angle(double omega) {
   return omega > 1e-4 && omega < 2 * std::numbers::pi - 0.05;
 }
 
-std::optional<Vec2> sample_solid_angle(const Triangle& triangle, const Vec3& from, const Vec2& u) {
+std::optional<Vec2> sample_solid_angle(const Triangle& triangle, const Vec3& from, double omega,
+                                       const Vec2& u) {
   const DVec3 origin(from);
   const DVec3 a = glm::normalize(DVec3(triangle.a) - origin);
   const DVec3 b = glm::normalize(DVec3(triangle.b) - origin);
   const DVec3 c = glm::normalize(DVec3(triangle.c) - origin);
-  const DVec3 ab = glm::cross(a, b), bc = glm::cross(b, c), ca = glm::cross(c, a);
-  const double alpha = angle_between(ab, -ca);
-  const double beta = angle_between(bc, -ab);
-  const double gamma = angle_between(ca, -bc);
-  const double area = alpha + beta + gamma - std::numbers::pi;
+  // The angle at a, between the planes of its two sides.
+  const DVec3 side_b = glm::normalize(glm::cross(a, b)), side_c = glm::normalize(glm::cross(a, c));
+  const double cos_alpha = glm::dot(side_b, side_c);
+  const double sin_alpha = glm::length(glm::cross(side_b, side_c));
 
-  // The vertex c' for which the triangle a b c' has the share u.x of the area.
-  const double phi = static_cast<double>(u.x) * area + std::numbers::pi - alpha;
-  const double cos_alpha = std::cos(alpha), sin_alpha = std::sin(alpha);
-  const double cos_phi = std::cos(phi), sin_phi = std::sin(phi);
+  // The vertex c' for which the triangle a b c' has the share u.x of the area; phi is that area
+  // plus pi less alpha.
+  const double share = static_cast<double>(u.x) * omega;
+  const double cos_share = std::cos(share), sin_share = std::sin(share);
+  const double cos_phi = -(cos_share * cos_alpha + sin_share * sin_alpha);
+  const double sin_phi = cos_share * sin_alpha - sin_share * cos_alpha;
   const double k1 = cos_phi + cos_alpha;
   const double k2 = sin_phi - sin_alpha * glm::dot(a, b);
   const double cos_ac = std::clamp((k2 + (k2 * cos_phi - k1 * sin_phi) * cos_alpha) /

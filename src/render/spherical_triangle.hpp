@@ -16,9 +16,9 @@ namespace pah {
 [[nodiscard]] bool sampled_by_solid_angle(double omega);
 
 // Barycentric weights (of the second and third vertex) of a point whose direction is uniform in
-// solid angle: Arvo, "Stratified Sampling of Spherical Triangles" (SIGGRAPH 1995). Empty if the
-// triangle is degenerate as seen from there.
+// solid angle: Arvo, "Stratified Sampling of Spherical Triangles" (SIGGRAPH 1995). `omega`
+// is its solid angle. Empty if the triangle is degenerate as seen from there.
 [[nodiscard]] std::optional<Vec2> sample_solid_angle(const Triangle& triangle, const Vec3& from,
-                                                     const Vec2& u);
+                                                     double omega, const Vec2& u);
 
 }  // namespace pah

@@ -97,7 +97,7 @@ TEST_CASE("spherical triangles are sampled uniformly in solid angle") {
           n * solid_angle({Vec3(p[0]), Vec3(p[1]), Vec3(p[2])}, Vec3(0)) / omega;
     }
     for (int i = 0; i < n; ++i) {
-      const auto b = sample_solid_angle(t, Vec3(0), random.next_2d());
+      const auto b = sample_solid_angle(t, Vec3(0), omega, random.next_2d());
       REQUIRE(b);
       double b0 = 1.0 - b->x - b->y, b1 = b->x, b2 = b->y;
       int cell = 0;
