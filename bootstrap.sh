@@ -85,9 +85,10 @@ install_packages
 if $deps_only; then exit 0; fi
 
 cmake --preset "$preset"
-cmake --build --preset "$preset"
 if [[ $command == test ]]; then
+  cmake --build --preset "$preset"
   ctest --preset "$preset" -j "$(nproc)"
 else
+  cmake --build --preset "$preset" --target pahrender
   echo "Built build/$preset/pahrender"
 fi
