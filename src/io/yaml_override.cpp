@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <charconv>
 
 #include "io/yaml_suggest.hpp"
@@ -42,6 +43,9 @@ YamlRef replace_at(const YamlRef& root, std::string_view path, const YamlRef& va
                    const Mark& mark) {
   if (path.empty() || path.front() == '.' || path.back() == '.')
     throw YamlError(mark, "an override is key.path=value");
+  constexpr int longest_path = 64;  // steps
+  if (std::count(path.begin(), path.end(), '.') >= longest_path)
+    throw YamlError(mark, "the path has more than " + std::to_string(longest_path) + " steps");
   auto copy = std::make_shared<YamlNode>(*root);
   if (copy->kind == Kind::null) copy->kind = Kind::map;
   if (copy->kind == Kind::scalar)

@@ -188,7 +188,7 @@ void read_variant(ReadContext& context, const YamlNode* node, const std::string&
   if (context.language != nullptr) {
     for (std::size_t i = 0; i < options.size(); ++i) {
       MapReader reader(context, nullptr, kind + " " + options[i], title);
-      reader.find(key, key_required, {options[i]});
+      reader.find(key, i != otherwise, {options[i]});
       read(reader, i);
     }
     return;
