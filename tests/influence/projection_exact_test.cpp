@@ -232,7 +232,7 @@ void compare_polygons(unsigned seed, int count) {
     if (kind != 4 && truth > 1e-6 * smaller) REQUIRE(std::abs(ours - truth) <= 1e-9 * truth);
     if (smaller > 0) worst = std::max(worst, std::abs(ours - truth) / smaller);
     ++(truth > 0 ? overlapping : disjoint);
-    REQUIRE(std::abs(area(a) - exact::area(a)) <= 1e-12 * exact::area(a));
+    REQUIRE(std::abs(area(a) - exact::area(a)) <= 1e-9 * exact::area(a));
   }
   WARN("overlap: worst error " << worst << " of the smaller polygon, " << overlapping
                                << " overlapping, " << disjoint << " not");
