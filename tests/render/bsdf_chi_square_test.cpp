@@ -48,7 +48,7 @@ void test_all(int count, int runs, std::uint64_t seed) {
 
 TEST_CASE("BSDF samples follow the stated density") { test_all(50'000, 1, 100); }
 
-TEST_CASE("BSDF samples follow the stated density, a million each", "[full]") {
+TEST_CASE("BSDF samples follow the stated density in a million draws each", "[full]") {
   test_all(1'000'000, 5, 1000);
 }
 

@@ -174,7 +174,7 @@ void test_reciprocity(int pairs) {
 }  // namespace
 
 TEST_CASE("light goes back the way it came") { test_reciprocity(20'000); }
-TEST_CASE("light goes back the way it came, a million times", "[full]") {
+TEST_CASE("light goes back the way it came a million times", "[full]") {
   test_reciprocity(1'000'000);
 }
 

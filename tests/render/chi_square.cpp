@@ -43,15 +43,17 @@ double gauss(const PointDensity& f, const DVec2& a, const DVec2& b) {
   return sum * 4 * half.x * half.y;
 }
 
-double integrate(const PointDensity& f, const DVec2& a, const DVec2& b, double whole, int depth) {
+// Halves where two estimates differ by more than the tolerance.
+double integrate(const PointDensity& f, const DVec2& a, const DVec2& b, double whole,
+                 double tolerance, int depth) {
   const DVec2 m = 0.5 * (a + b);
   const DVec2 corners[4][2] = {{a, m}, {{m.x, a.y}, {b.x, m.y}}, {{a.x, m.y}, {m.x, b.y}}, {m, b}};
   double parts[4], sum = 0;
   for (int i = 0; i < 4; ++i) sum += parts[i] = gauss(f, corners[i][0], corners[i][1]);
-  if (depth == 0 || std::abs(sum - whole) < 3e-7) return sum;
+  if (depth == 0 || std::abs(sum - whole) < tolerance) return sum;
   sum = 0;
   for (int i = 0; i < 4; ++i)
-    sum += integrate(f, corners[i][0], corners[i][1], parts[i], depth - 1);
+    sum += integrate(f, corners[i][0], corners[i][1], parts[i], tolerance, depth - 1);
   return sum;
 }
 
@@ -62,6 +64,8 @@ ChiSquare chi_square(const Domain& domain, const PointSampler& sample, const Poi
   const DVec2 cell = (domain.max - domain.min) / DVec2{rows, columns};
   std::vector<double> expected, observed(rows * columns + 1, 0);
   ChiSquare result;
+  // A hundredth of a point: where a density ends at an edge, many parts are off by that much.
+  const double tolerance = 0.01 / count;
   for (int i = 0; i < rows; ++i) {
     for (int j = 0; j < columns; ++j) {
       // Parts to begin with, lest a narrow peak is overlooked between the nodes.
@@ -69,7 +73,7 @@ ChiSquare chi_square(const Domain& domain, const PointSampler& sample, const Poi
       const DVec2 corner = domain.min + cell * DVec2{i, j};
       for (int k = 0; k < 16; ++k) {
         const DVec2 a = corner + 0.25 * cell * DVec2{k % 4, k / 4}, b = a + 0.25 * cell;
-        sum += integrate(density, a, b, gauss(density, a, b), 6);
+        sum += integrate(density, a, b, gauss(density, a, b), tolerance, 8);
       }
       expected.push_back(sum * count);
       result.integral += sum;

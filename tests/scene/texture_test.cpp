@@ -2,6 +2,7 @@
 #include <OpenImageIO/imagebufalgo.h>
 #include <OpenImageIO/imageio.h>
 #include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
 
 #include <cmath>
 #include <filesystem>
@@ -9,6 +10,10 @@
 #include <functional>
 #include <limits>
 #include <random>
+
+#ifdef __SANITIZE_ADDRESS__
+#include <sanitizer/lsan_interface.h>
+#endif
 
 #include "catch.hpp"
 #include "scene/texture_linear_input.hpp"
@@ -60,6 +65,16 @@ class ImageFolder {
   fs::path path_;
 };
 
+// OpenImageIO lets libpng jump out of a file's unexpected end over a std::string: that leak is not
+// ours. Textures are then opened on this thread alone.
+template <typename Function>
+void with_leaks_of_libpng(const Function& function) {
+#ifdef __SANITIZE_ADDRESS__
+  const __lsan::ScopedDisabler disabler;
+#endif
+  tbb::task_arena(1).execute(function);
+}
+
 TextureStore store_of(ImageTexture texture, const TextureOptions& options = {}) {
   const std::vector<Texture> textures{std::move(texture)};
   return TextureStore(textures, options);
@@ -67,14 +82,17 @@ TextureStore store_of(ImageTexture texture, const TextureOptions& options = {}) 
 
 // The message of the error that the texture causes.
 std::string error_of(const ImageTexture& texture, const TextureOptions& options = {}) {
-  try {
-    const std::vector<Texture> textures{CheckerTexture{}, texture};
-    const TextureStore store(textures, options);
-  } catch (const TextureError& error) {
-    CHECK(error.id() == 1);
-    return error.what();
-  }
-  return "none";
+  std::string message = "none";
+  with_leaks_of_libpng([&] {
+    try {
+      const std::vector<Texture> textures{CheckerTexture{}, texture};
+      const TextureStore store(textures, options);
+    } catch (const TextureError& error) {
+      CHECK(error.id() == 1);
+      message = error.what();
+    }
+  });
+  return message;
 }
 
 Vec2 center_of(int x, int y, int width, int height) {
@@ -337,16 +355,18 @@ TEST_CASE("damaged files are refused or black, never fatal") {
       if (trial % 5 == 0) damaged.resize(rng() % damaged.size());
       const fs::path target = folder / (std::to_string(trial) + name);
       std::ofstream(target, std::ios::binary) << damaged;
-      try {
-        const TextureStore store = store_of({target}, options);
-        for (int i = 0; i < 8; ++i) {
-          const float u = static_cast<float>(i) / 8.0F;
-          (void)store.sample(0, {u, u}, TextureUse::color, Vec2{i % 2 == 0 ? 0.0F : 0.2F});
-          (void)store.sample(0, {u, u}, TextureUse::data);
+      with_leaks_of_libpng([&] {
+        try {
+          const TextureStore store = store_of({target}, options);
+          for (int i = 0; i < 8; ++i) {
+            const float u = static_cast<float>(i) / 8.0F;
+            (void)store.sample(0, {u, u}, TextureUse::color, Vec2{i % 2 == 0 ? 0.0F : 0.2F});
+            (void)store.sample(0, {u, u}, TextureUse::data);
+          }
+          (void)store.image(0);
+        } catch (const TextureError&) {
         }
-        (void)store.image(0);
-      } catch (const TextureError&) {
-      }
+      });
     }
   }
 }
