@@ -4,9 +4,7 @@
 #include <cstring>
 #include <deque>
 #include <fstream>
-#include <nlohmann/json.hpp>
 #include <optional>
-#include <pah/io/mesh_file.hpp>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -98,26 +96,6 @@ std::optional<std::string> decode_base64(std::string_view text) {
   if (count % 4 >= 2) bytes.push_back(static_cast<char>(bits >> (count % 4 == 2 ? 4U : 10U)));
   if (count % 4 == 3) bytes.push_back(static_cast<char>(bits >> 2U));
   return bytes;
-}
-
-// "%20" and the like.
-std::string decode_uri(std::string_view uri) {
-  const auto digit = [](char c) {
-    if (c >= '0' && c <= '9') return c - '0';
-    if (c >= 'a' && c <= 'f') return c - 'a' + 10;
-    if (c >= 'A' && c <= 'F') return c - 'A' + 10;
-    return -1;
-  };
-  std::string text;
-  for (std::size_t i = 0; i < uri.size(); ++i) {
-    if (uri[i] == '%' && i + 2 < uri.size() && digit(uri[i + 1]) >= 0 && digit(uri[i + 2]) >= 0) {
-      text.push_back(static_cast<char>(digit(uri[i + 1]) * 16 + digit(uri[i + 2])));
-      i += 2;
-    } else {
-      text.push_back(uri[i]);
-    }
-  }
-  return text;
 }
 
 struct Accessor {
@@ -380,7 +358,26 @@ int line_of(std::string_view text, std::size_t at) {
 
 }  // namespace
 
-void check_gltf(const fs::path& file, const fs::path& folder, std::uint64_t max_bytes) {
+std::string decode_uri(std::string_view uri) {
+  const auto digit = [](char c) {
+    if (c >= '0' && c <= '9') return c - '0';
+    if (c >= 'a' && c <= 'f') return c - 'a' + 10;
+    if (c >= 'A' && c <= 'F') return c - 'A' + 10;
+    return -1;
+  };
+  std::string text;
+  for (std::size_t i = 0; i < uri.size(); ++i) {
+    if (uri[i] == '%' && i + 2 < uri.size() && digit(uri[i + 1]) >= 0 && digit(uri[i + 2]) >= 0) {
+      text.push_back(static_cast<char>(digit(uri[i + 1]) * 16 + digit(uri[i + 2])));
+      i += 2;
+    } else {
+      text.push_back(uri[i]);
+    }
+  }
+  return text;
+}
+
+Json read_gltf_document(const fs::path& file, const fs::path& folder, std::uint64_t max_bytes) {
   const std::string bytes = read_bytes(file, max_bytes);
   const bool binary = bytes.rfind("glTF", 0) == 0;
   if (binary != (file.extension() == ".glb" || file.extension() == ".GLB"))
@@ -400,6 +397,8 @@ void check_gltf(const fs::path& file, const fs::path& folder, std::uint64_t max_
   } catch (const Json::exception&) {
     throw MeshFileError("a value in it is not of the kind that glTF asks for");
   }
+  json.erase("buffers");  // which may hold all data as text
+  return json;
 }
 
 }  // namespace pah

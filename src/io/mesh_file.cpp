@@ -50,12 +50,15 @@ class ImportedScene {
 
   [[nodiscard]] const aiScene& operator*() const { return *scene_; }
   [[nodiscard]] const aiScene* operator->() const { return scene_; }
+  // Null for other formats.
+  [[nodiscard]] const nlohmann::json& gltf() const { return gltf_; }
 
  private:
   void check(const MeshFileOptions& options) const;
 
   Assimp::Importer importer_;
   const aiScene* scene_ = nullptr;
+  nlohmann::json gltf_;
 };
 
 ImportedScene::ImportedScene(const fs::path& file, const MeshFileOptions& options, bool strict) {
@@ -74,7 +77,8 @@ ImportedScene::ImportedScene(const fs::path& file, const MeshFileOptions& option
   const fs::path folder = folder_of(file, options.folder);
   if (extension == ".obj") scan_obj(file, options.triangles);
   if (extension == ".ply") scan_ply(file);
-  if (extension == ".gltf" || extension == ".glb") check_gltf(file, folder, options.file_bytes);
+  if (extension == ".gltf" || extension == ".glb")
+    gltf_ = read_gltf_document(file, folder, options.file_bytes);
 
   auto* const files = new LimitedFiles(file, folder, options.file_bytes);
   importer_.SetIOHandler(files);  // which owns it
@@ -308,8 +312,7 @@ MeshFile read_mesh_file(const fs::path& file, const MeshFileOptions& options) {
             {*ids[p.mesh], scene->mMeshes[p.mesh]->mMaterialIndex, p.world_from_object});
     if (result.parts.empty()) fail_empty();
     read_materials(*scene, file, folder_of(file, options.folder), result);
-    read_cameras(*scene, result);
-    read_lights(*scene, result);
+    if (!scene.gltf().is_null()) read_gltf_cameras_and_lights(scene.gltf(), result);
     return result;
   });
 }

@@ -7,19 +7,15 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numbers>
 #include <optional>
-#include <pah/scene/placement.hpp>
 
+#include "io/gltf_file.hpp"
 #include "io/mesh_file_access.hpp"
 
 namespace pah {
 namespace {
 
 namespace fs = std::filesystem;
-
-// Photometric to radiometric units, as glTF's exporters have it.
-constexpr float lumens_per_watt = 683;
 
 bool finite(const Vec3& v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
@@ -172,13 +168,15 @@ class MaterialReader {
     if (scene_.GetEmbeddedTexture(name.c_str()) != nullptr)
       fail("images inside of the mesh file cannot be read; save them as files beside it");
     std::replace(name.begin(), name.end(), '\\', '/');
-    const fs::path path = name;
-    const fs::path file = folder_ / path;
-    if (path.is_absolute() || !lies_in(file, limit_))
-      fail("image '" + name + "' lies outside of the scene's folder");
-    std::error_code error;
-    if (!fs::is_regular_file(file, error)) fail("there is no image '" + name + "'");
-    return file;
+    // glTF's names are URIs, which the importer may have decoded or not.
+    for (const fs::path& path : {fs::path(name), fs::path(decode_uri(name))}) {
+      const fs::path file = folder_ / path;
+      if (path.is_absolute() || !lies_in(file, limit_))
+        fail("image '" + name + "' lies outside of the scene's folder");
+      std::error_code error;
+      if (fs::is_regular_file(file, error)) return file;
+    }
+    fail("there is no image '" + name + "'");
   }
 
   const aiMaterial& source_;
@@ -188,21 +186,6 @@ class MaterialReader {
   std::map<std::string, TextureId>& textures_;
   MeshFile& out_;
 };
-
-// The transform of the node that carries a camera's or a light's name.
-glm::dmat4x3 world_from(const aiScene& scene, const aiString& name) {
-  glm::dmat4x3 world{1.0};
-  for (const aiNode* node = scene.mRootNode->FindNode(name); node != nullptr; node = node->mParent)
-    world = compose(matrix_of(node->mTransformation), world);
-  return world;
-}
-
-DVec3 point(const glm::dmat4x3& m, const aiVector3D& v) { return m * glm::dvec4(v.x, v.y, v.z, 1); }
-DVec3 direction(const glm::dmat4x3& m, const aiVector3D& v) {
-  return m * glm::dvec4(v.x, v.y, v.z, 0);
-}
-
-double degrees(double radians) { return radians * (180 / std::numbers::pi); }
 
 }  // namespace
 
@@ -215,60 +198,6 @@ void read_materials(const aiScene& scene, const fs::path& file, const fs::path& 
   std::map<std::string, TextureId> textures;
   for (unsigned i = 0; i < scene.mNumMaterials; ++i)
     MaterialReader(*scene.mMaterials[i], scene, file.parent_path(), folder, textures, out).read();
-}
-
-void read_cameras(const aiScene& scene, MeshFile& out) {
-  for (unsigned i = 0; i < scene.mNumCameras; ++i) {
-    const aiCamera& source = *scene.mCameras[i];
-    const glm::dmat4x3 world = world_from(scene, source.mName);
-    const double aspect = source.mAspect > 0 ? source.mAspect : 1;
-    const auto place = [&](auto camera) {
-      camera.position = point(world, source.mPosition);
-      camera.look_at = camera.position + direction(world, source.mLookAt);
-      camera.up = direction(world, source.mUp);
-      out.cameras.push_back({source.mName.C_Str(), camera});
-    };
-    if (source.mOrthographicWidth > 0) {
-      OrthographicCamera camera;
-      camera.height = 2 * source.mOrthographicWidth / aspect;
-      place(camera);
-    } else {
-      PerspectiveCamera camera;
-      camera.fov = degrees(2 * std::atan(std::tan(0.5 * source.mHorizontalFOV) / aspect));
-      if (camera.fov > 0 && camera.fov < 180) place(camera);
-    }
-  }
-}
-
-void read_lights(const aiScene& scene, MeshFile& out) {
-  for (unsigned i = 0; i < scene.mNumLights; ++i) {
-    const aiLight& source = *scene.mLights[i];
-    const glm::dmat4x3 world = world_from(scene, source.mName);
-    const DVec3 position = point(world, source.mPosition);
-    const DVec3 forward = direction(world, source.mDirection);
-    const aiColor3D& c = source.mColorDiffuse;
-    const Vec3 power = Vec3(c.r, c.g, c.b) / lumens_per_watt;
-    if (!finite(power) || !finite(Vec3(position)) || !finite(Vec3(forward)))
-      throw MeshFileError("light '" + std::string(source.mName.C_Str()) + "' is not finite");
-    Light light;
-    light.name = source.mName.C_Str();
-    if (source.mType == aiLightSource_POINT) {
-      light.model = PointLight{position, power};
-    } else if (source.mType == aiLightSource_DIRECTIONAL) {
-      light.model = DirectionalLight{forward, power, 0};
-    } else if (source.mType == aiLightSource_SPOT) {
-      SpotLight spot;
-      spot.position = position;
-      spot.direction = forward;
-      spot.intensity = power;
-      spot.angle = std::clamp(degrees(source.mAngleOuterCone), 0.01, 90.0);
-      spot.blend = std::clamp(1 - degrees(source.mAngleInnerCone) / spot.angle, 0.0, 1.0);
-      light.model = spot;
-    } else {
-      continue;
-    }
-    out.lights.push_back(light);
-  }
 }
 
 }  // namespace pah

@@ -1,4 +1,4 @@
-// What a mesh file holds besides meshes, from assimp's terms into ours.
+// The materials of mesh files, from assimp's terms into ours.
 #pragma once
 
 #include <assimp/scene.h>
@@ -12,10 +12,5 @@ namespace pah {
 // Materials, their emission and textures. Images are files under `folder`. Throws MeshFileError.
 void read_materials(const aiScene& scene, const std::filesystem::path& file,
                     const std::filesystem::path& folder, MeshFile& out);
-
-void read_cameras(const aiScene& scene, MeshFile& out);
-
-// Intensities of glTF are photometric: 683 lm/W turn them into watts.
-void read_lights(const aiScene& scene, MeshFile& out);
 
 }  // namespace pah

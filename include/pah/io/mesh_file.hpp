@@ -21,7 +21,7 @@ struct MeshFileOptions {
   std::uint64_t file_bytes = 4ULL << 30;  // of the file and of each buffer that it names
   std::uint64_t triangles = 100'000'000;  // and as many vertices, thrice
   // Files that the mesh file names (buffers, images, .mtl) must lie in or under this folder; empty
-  // for the mesh file's own.
+  // for the mesh file's own. Links may lead out of it.
   std::filesystem::path folder;
 };
 
@@ -61,8 +61,9 @@ struct MeshFile {
   std::vector<Material> materials;  // never empty
   std::vector<Texture> textures;
   std::vector<NamedCamera> cameras;
-  std::vector<Light> lights;   // point, spot and directional; area lights of emissive materials are
-                               // not among them
+  // Point, spot and directional lights of glTF, whose units are photometric: 683 lm/W turn them
+  // into watts. Area lights of emissive materials are not among them.
+  std::vector<Light> lights;
   std::vector<Vec3> emission;  // per material: radiance that it emits, W/(m2 sr), or black
 };
 
