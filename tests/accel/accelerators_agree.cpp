@@ -8,52 +8,11 @@
 #include <limits>
 
 #include "catch.hpp"
+#include "support/answers.hpp"
 #include "support/soups.hpp"
 
 using namespace pah;
 using namespace pah::test;
-
-namespace {
-
-bool same_bits(float a, float b) {
-  return std::bit_cast<std::uint32_t>(a) == std::bit_cast<std::uint32_t>(b);
-}
-
-bool same(const Hit& a, const Hit& b) {
-  return a.triangle == b.triangle && same_bits(a.t, b.t) && same_bits(a.u, b.u) &&
-         same_bits(a.v, b.v);
-}
-
-struct Answers {
-  std::vector<Hit> hits;
-  std::vector<std::uint8_t> occluded;
-};
-
-Answers ask(const Accelerator& accelerator, const std::vector<Ray>& rays,
-            TraversalCounts* counts = nullptr) {
-  Answers answers;
-  answers.hits.resize(rays.size());
-  answers.occluded.resize(rays.size());
-  accelerator.closest_hit(rays, answers.hits, counts);
-  accelerator.occluded(rays, answers.occluded, counts);
-  return answers;
-}
-
-void check_same(const Answers& expected, const Answers& found) {
-  std::size_t different = 0;
-  std::size_t inconsistent = 0;
-  for (std::size_t i = 0; i < expected.hits.size(); ++i) {
-    different += same(expected.hits[i], found.hits[i]) ? 0 : 1;
-    inconsistent += expected.occluded[i] == found.occluded[i] &&
-                            found.hits[i].valid() == (found.occluded[i] != 0)
-                        ? 0
-                        : 1;
-  }
-  CHECK(different == 0);
-  CHECK(inconsistent == 0);
-}
-
-}  // namespace
 
 TEST_CASE("A global BVH answers like brute force, bit for bit") {
   for (const Soup& soup : all_soups()) {

@@ -1,0 +1,60 @@
+// Influence areas at work: each has a local BVH over the triangles that can be hit inside it; a
+// global BVH answers whatever no area can.
+#pragma once
+
+#include <pah/accel/accelerator.hpp>
+#include <pah/bvh/build_config.hpp>
+#include <pah/influence/influence_area.hpp>
+#include <vector>
+
+namespace pah {
+
+// By what a local BVH's boxes are measured.
+enum class LocalHeuristic : std::uint8_t {
+  surface_area,   // SAH: as if rays came from everywhere
+  projected_area  // PAH: the chance that a ray of the area's bundle hits the box
+};
+
+// Which axes of a node may be split.
+enum class LocalSplit : std::uint8_t {
+  best,     // the cheapest split of all three
+  longest,  // of the axis along which the node is longest
+  facing    // SPFH: of the axes whose planes face the bundle's rays well enough
+};
+
+struct LocalConfig {
+  LocalHeuristic heuristic = LocalHeuristic::surface_area;
+  LocalSplit split = LocalSplit::best;
+  // LocalSplit::facing: axes of a lower facing quality are split only if no axis reaches it.
+  double facing_threshold = 0.5;
+  BuildConfig build;
+};
+
+// An area and the bundle whose rays it is for. World coordinates.
+struct LocalArea {
+  InfluenceArea area;
+  std::uint32_t bundle = no_bundle;
+};
+
+struct LocalBvhReport {
+  std::uint64_t triangles = 0;
+  std::uint64_t bytes = 0;
+  double build_seconds = 0;
+  // Expected cost of a ray of the bundle (box_cost and triangle_cost of build_config.hpp) in the
+  // local BVH and in the global one.
+  double predicted_cost = 0;
+  double global_cost = 0;
+};
+
+class LocalBvhs : public Accelerator {
+ public:
+  // In the order of the areas.
+  [[nodiscard]] virtual const std::vector<LocalBvhReport>& reports() const = 0;
+};
+
+// Rays of no area's bundle, and those that an area cannot answer for certain, go to the global BVH.
+[[nodiscard]] std::unique_ptr<LocalBvhs> make_local_bvhs(Triangles triangles,
+                                                         const std::vector<LocalArea>& areas,
+                                                         const LocalConfig& config = {});
+
+}  // namespace pah

@@ -1,0 +1,261 @@
+// Who answers which ray.
+//
+// A local BVH holds every triangle whose box, widened by `margin`, meets the area's region. The
+// reported t of a hit lies in the ray's slab interval of the triangle's own box (ray_triangle.hpp),
+// so the ray's point at t lies in that box but for rounding. Hence every hit at a t up to which the
+// ray stays within the region, or within a fraction of the margin of it, is a hit of the local BVH:
+// up to there its answer, the nearest or none, is the answer. This holds for triangles that are cut
+// by the region, areas that overlap and eyes inside of boxes alike; beyond it the ray is asked of
+// the global BVH again as a whole.
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <chrono>
+#include <numeric>
+#include <pah/accel/local_bvhs.hpp>
+
+#include "accel/batch.hpp"
+#include "accel/bundle_measure.hpp"
+#include "bvh/build_bvh.hpp"
+
+namespace pah {
+
+namespace {
+
+// The largest number that coordinates and differences of coordinates in a box can have.
+float magnitude_of(const Aabb& box) {
+  const Vec3 size = glm::max(box.extent(), glm::max(glm::abs(box.min), glm::abs(box.max)));
+  return std::max(size.x, std::max(size.y, size.z));
+}
+
+// With u the unit roundoff and M the magnitude above: a segment's end misses the eye it was aimed
+// at by the rounding of the eye to float (u M), of the direction (2 u M), of the offset origin and
+// of t_max (1 u M each).
+constexpr int end_roundings = 5;
+// Adds the padding of the slab test (11 u M and 2 u M, ray_box.hpp), the rounding of the interval's
+// ends (3 u M) and that of the widened box (2 u M).
+constexpr int margin_roundings = end_roundings + 18;
+
+struct Area {
+  LocalArea declared;
+  Region region;
+  float end_margin = 0;
+  bool holds_scene = false;  // every triangle is in the local BVH
+  Bvh bvh;
+
+  // Up to which t the local BVH's answer is certain; nothing if the ray does not start inside.
+  [[nodiscard]] std::optional<float> reach(const Ray& ray, const PreparedRay& prepared,
+                                           const Aabb& scene) const {
+    if (!contains(region, ray.origin)) return {};
+    constexpr float everywhere = std::numeric_limits<float>::infinity();
+    if (holds_scene || ends_at_eye(ray)) return everywhere;
+    const float exit = exit_distance(region, ray);
+    return intersect_box(prepared, scene).far <= exit ? everywhere : exit;
+  }
+
+ private:
+  // A segment between two points of a convex set lies in it.
+  [[nodiscard]] bool ends_at_eye(const Ray& ray) const {
+    const auto* point = std::get_if<PointArea>(&declared.area);
+    if (point == nullptr || point->frustum.near > 0 || !(ray.t_max <= 1)) return false;
+    const DVec3 end = DVec3(ray.origin) + double{ray.t_max} * DVec3(ray.direction);
+    return glm::all(
+        glm::lessThanEqual(glm::abs(end - point->frustum.eye), DVec3(double{end_margin})));
+  }
+};
+
+std::vector<std::uint32_t> triangles_near(const Triangles& triangles, const Region& region,
+                                          float margin) {
+  const RegionShape shape = shape_of(region);
+  std::vector<std::uint8_t> near(triangles.size());
+  tbb::parallel_for(std::size_t{0}, near.size(), [&](std::size_t i) {
+    const Aabb box = triangles[i].bounds();
+    near[i] = overlaps(shape, Aabb{box.min - margin, box.max + margin}) ? 1 : 0;
+  });
+  std::vector<std::uint32_t> subset;
+  for (std::size_t i = 0; i < near.size(); ++i) {
+    if (near[i] != 0) subset.push_back(static_cast<std::uint32_t>(i));
+  }
+  return subset;
+}
+
+// Expected cost of a ray of the bundle, whether it meets the tree's root or not.
+double bundle_cost(const BinaryTree& tree, const BuildConfig& config,
+                   const HitProbability& probability) {
+  if (tree.empty()) return 0;
+  return expected_cost(tree, config, probability) *
+         double{probability.area(tree.nodes.front().box)};
+}
+
+class LocalBvhsOverGlobal final : public LocalBvhs {
+ public:
+  LocalBvhsOverGlobal(const Triangles& triangles, const std::vector<LocalArea>& areas,
+                      const LocalConfig& config)
+      : bounds_(bounds_of(triangles)) {
+    std::vector<std::uint32_t> all(triangles.size());
+    std::iota(all.begin(), all.end(), 0U);
+    const BuiltBvh global = build_bvh_and_tree(triangles, all);
+    areas_.reserve(areas.size());
+    for (const LocalArea& area : areas) add(area, triangles, config, global.tree);
+    global_ = std::move(global.bvh);
+    order_.resize(areas_.size());
+    std::iota(order_.begin(), order_.end(), 0U);
+    std::ranges::stable_sort(order_, {}, [&](std::uint32_t i) { return bundle_of(i); });
+  }
+
+  void closest_hit(std::span<const Ray> rays, std::span<Hit> hits,
+                   TraversalCounts* counts) const override {
+    for_batches(rays, bounds_, [&](std::span<const PreparedRay> batch, std::size_t first) {
+      const std::span<Hit> found = hits.subspan(first, batch.size());
+      std::transform(batch.begin(), batch.end(), found.begin(), nothing_yet);
+      answer(rays.subspan(first, batch.size()), batch, [&](const Bvh& bvh, const Lanes& lanes) {
+        std::array<Hit, batch_size> local;
+        for (std::size_t k = 0; k < lanes.count; ++k) local[k] = nothing_yet(lanes.rays[k]);
+        closest_hits(bvh, lanes.span(), std::span(local.data(), lanes.count), counts);
+        for (std::size_t k = 0; k < lanes.count; ++k) found[lanes.index[k]] = finished(local[k]);
+        return [found](std::size_t i) { return found[i].valid(); };
+      });
+    });
+  }
+
+  void occluded(std::span<const Ray> rays, std::span<std::uint8_t> results,
+                TraversalCounts* counts) const override {
+    std::fill_n(results.begin(), rays.size(), std::uint8_t{0});
+    for_batches(rays, bounds_, [&](std::span<const PreparedRay> batch, std::size_t first) {
+      const std::span<std::uint8_t> found = results.subspan(first, batch.size());
+      answer(rays.subspan(first, batch.size()), batch, [&](const Bvh& bvh, const Lanes& lanes) {
+        std::array<std::uint8_t, batch_size> local{};
+        pah::occluded(bvh, lanes.span(), std::span(local.data(), lanes.count), counts);
+        for (std::size_t k = 0; k < lanes.count; ++k) found[lanes.index[k]] = local[k];
+        return [found](std::size_t i) { return found[i] != 0; };
+      });
+    });
+  }
+
+  [[nodiscard]] AcceleratorMemory memory() const override {
+    AcceleratorMemory memory{.global_bvh = global_.memory_bytes()};
+    for (const LocalBvhReport& report : reports_) memory.local_bvhs += report.bytes;
+    memory.top_level = areas_.capacity() * sizeof(Area) + order_.capacity() * sizeof(order_[0]);
+    return memory;
+  }
+
+  [[nodiscard]] const std::vector<LocalBvhReport>& reports() const override { return reports_; }
+
+ private:
+  static constexpr std::uint32_t the_global_bvh = 0xFFFFFFFFU;
+
+  // Some rays of a batch, side by side.
+  struct Lanes {
+    std::array<PreparedRay, batch_size> rays;
+    std::array<std::size_t, batch_size> index;  // in the batch
+    std::size_t count = 0;
+
+    void add(const PreparedRay& ray, std::size_t i) {
+      rays[count] = ray;
+      index[count++] = i;
+    }
+    [[nodiscard]] std::span<const PreparedRay> span() const { return {rays.data(), count}; }
+  };
+
+  struct Assignment {
+    std::uint32_t area = the_global_bvh;
+    float reach = std::numeric_limits<float>::infinity();
+  };
+
+  [[nodiscard]] std::uint32_t bundle_of(std::uint32_t area) const {
+    return areas_[area].declared.bundle;
+  }
+
+  void add(const LocalArea& declared, const Triangles& triangles, const LocalConfig& config,
+           const BinaryTree& global) {
+    const auto start = std::chrono::steady_clock::now();
+    Area area;
+    area.declared = declared;
+    area.region = region_of(declared.area);
+    Aabb reachable = bounds_;
+    reachable.extend(enclosing_box(area.region));
+    const float magnitude = magnitude_of(reachable);
+    area.end_margin = rounding_bound(end_roundings) * magnitude;
+    const std::vector<std::uint32_t> subset =
+        triangles_near(triangles, area.region, rounding_bound(margin_roundings) * magnitude);
+    area.holds_scene = subset.size() == triangles.size();
+
+    const BundleAxes axes(declared.area, config.split, config.facing_threshold);
+    const HitProbability probability(declared.area);
+    BuiltBvh built =
+        config.heuristic == LocalHeuristic::projected_area
+            ? build_bvh_and_tree(triangles, subset, config.build,
+                                 LocalProjectedArea{axes, probability})
+            : build_bvh_and_tree(triangles, subset, config.build, LocalSurfaceArea{axes});
+    area.bvh = std::move(built.bvh);
+
+    LocalBvhReport report;
+    report.triangles = subset.size();
+    report.bytes = area.bvh.memory_bytes();
+    report.build_seconds =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    report.predicted_cost = bundle_cost(built.tree, config.build, probability);
+    report.global_cost = bundle_cost(global, BuildConfig{}, probability);
+    reports_.push_back(report);
+    areas_.push_back(std::move(area));
+  }
+
+  // The first area of the ray's bundle that holds its origin.
+  [[nodiscard]] Assignment assign(const Ray& ray, const PreparedRay& prepared) const {
+    const auto [first, last] = std::ranges::equal_range(
+        order_, ray.bundle, {}, [&](std::uint32_t i) { return bundle_of(i); });
+    for (auto i = first; i != last; ++i) {
+      if (const auto reach = areas_[*i].reach(ray, prepared, bounds_)) return {*i, *reach};
+    }
+    return {};
+  }
+
+  // Calls `trace(bvh, lanes)` for the rays of each area, then for those that are still open.
+  // `trace` returns whether ray i of the batch has hit something.
+  template <typename Trace>
+  void answer(std::span<const Ray> rays, std::span<const PreparedRay> batch,
+              const Trace& trace) const {
+    std::array<Assignment, batch_size> assigned;
+    for (std::size_t i = 0; i < batch.size(); ++i) {
+      if (rays[i].bundle != no_bundle) assigned[i] = assign(rays[i], batch[i]);
+    }
+    Lanes open;
+    std::array<bool, batch_size> done{};
+    for (std::size_t i = 0; i < batch.size(); ++i) {
+      if (done[i]) continue;
+      const std::uint32_t area = assigned[i].area;
+      if (area == the_global_bvh) {
+        open.add(batch[i], i);
+        continue;
+      }
+      Lanes lanes;
+      for (std::size_t k = i; k < batch.size(); ++k) {
+        if (assigned[k].area != area) continue;
+        lanes.add(batch[k], k);
+        lanes.rays[lanes.count - 1].t_max = std::min(batch[k].t_max, assigned[k].reach);
+        done[k] = true;
+      }
+      const auto hit = trace(areas_[area].bvh, lanes);
+      for (std::size_t k = 0; k < lanes.count; ++k) {
+        const std::size_t ray = lanes.index[k];
+        if (assigned[ray].reach < batch[ray].t_max && !hit(ray)) open.add(batch[ray], ray);
+      }
+    }
+    if (open.count > 0) trace(global_, open);
+  }
+
+  Aabb bounds_;
+  Bvh global_;
+  std::vector<Area> areas_;
+  std::vector<std::uint32_t> order_;  // areas by bundle
+  std::vector<LocalBvhReport> reports_;
+};
+
+}  // namespace
+
+std::unique_ptr<LocalBvhs> make_local_bvhs(Triangles triangles, const std::vector<LocalArea>& areas,
+                                           const LocalConfig& config) {
+  return std::make_unique<LocalBvhsOverGlobal>(triangles, areas, config);
+}
+
+}  // namespace pah
