@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <mutex>
 #include <optional>
 
 #include "scene/texture_linear_input.hpp"
@@ -129,19 +130,47 @@ Vec4 sample_checker(const Entry& entry, const glm::dvec2& st, const glm::dvec2& 
   return glm::mix(entry.b, entry.a, static_cast<float>(0.5 + 0.5 * same));
 }
 
+// Texture systems are lent to one store at a time and never destroyed: threads outlive them, and
+// OpenImageIO 2 keeps for each thread tiles and files by the address of the system, which the next
+// system at that address would take for its own.
+class SystemPool {
+ public:
+  static SystemPool& instance() {
+    static auto* const pool = new SystemPool;  // may be needed until the last thread ends
+    return *pool;
+  }
+
+  OIIO::TextureSystem* take() {
+    const std::lock_guard lock(mutex_);
+    if (idle_.empty()) return OIIO::TextureSystem::create(false);
+    OIIO::TextureSystem* const system = idle_.back();
+    idle_.pop_back();
+    return system;
+  }
+
+  // Frees its tiles; files are opened anew when they are next asked for.
+  void give_back(OIIO::TextureSystem* system) {
+    system->invalidate_all(true);
+    const std::lock_guard lock(mutex_);
+    idle_.push_back(system);
+  }
+
+ private:
+  std::mutex mutex_;
+  std::vector<OIIO::TextureSystem*> idle_;
+};
+
 }  // namespace
 
 struct TextureStore::Impl {
-  struct DestroySystem {
-    void operator()(OIIO::TextureSystem* system) const {
-      OIIO::TextureSystem::destroy(system, true);
-    }
+  struct GiveBack {
+    void operator()(OIIO::TextureSystem* system) const { SystemPool::instance().give_back(system); }
   };
 
   TextureOptions options;
   std::vector<Texture> textures;
   std::vector<Entry> entries;
-  std::unique_ptr<OIIO::TextureSystem, DestroySystem> system;  // none if there are no images
+  std::unique_ptr<OIIO::TextureSystem, GiveBack> system;  // none if there are no images
 
   void start_system();
   [[nodiscard]] ImageEntry load(TextureId id, const ImageTexture& texture);
@@ -150,7 +179,7 @@ struct TextureStore::Impl {
 };
 
 void TextureStore::Impl::start_system() {
-  system.reset(OIIO::TextureSystem::create(false));
+  system.reset(SystemPool::instance().take());
   system->attribute("max_memory_MB", static_cast<float>(options.cache_megabytes));
   system->attribute("autotile", 64);
   system->attribute("automip", 1);
