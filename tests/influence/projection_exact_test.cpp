@@ -64,7 +64,7 @@ struct Error {
 
   // Relative to the truth, but for boxes that are seen edge-on: there rounding alone is left.
   void add(double ours, double truth, double section) {
-    REQUIRE(std::abs(ours - truth) <= 1e-9 * truth + 1e-16 * section);
+    REQUIRE(std::abs(ours - truth) <= 1e-9 * truth + 1e-15 * section);
     if (truth < 1e-13 * section) {
       ++empty;
       return;
