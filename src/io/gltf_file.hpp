@@ -9,16 +9,20 @@
 
 namespace pah {
 
-// The document of a .gltf or .glb, without its buffers. Checks that buffers, their views, accessors
-// and indices lie within one another, that the nodes are a forest of bounded depth, and that every
-// file named lies in or under `folder` and is not larger than `max_bytes`. Reads no images. Throws
-// MeshFileError.
-[[nodiscard]] nlohmann::json read_gltf_document(const std::filesystem::path& file,
-                                                const std::filesystem::path& folder,
-                                                std::uint64_t max_bytes);
+struct GltfDocument {
+  nlohmann::json nodes = nlohmann::json::object();  // "scenes", "nodes", "cameras", "extensions"
+  std::string cleaned;  // the file again, .gltf or .glb, with what importing needs
+};
 
-// Cameras and lights of the document's scene. glTF's lights are photometric (candela, lux): 683
-// lm/W turn them into watts. Throws MeshFileError or nlohmann::json::exception.
+// Reads a .gltf or .glb, and checks that buffers, their views, accessors and indices lie within one
+// another, that the nodes are a forest of bounded depth, and that every file named lies in or under
+// `folder` and is not larger than `max_bytes`. Reads no images. Throws MeshFileError.
+[[nodiscard]] GltfDocument read_gltf_document(const std::filesystem::path& file,
+                                              const std::filesystem::path& folder,
+                                              std::uint64_t max_bytes);
+
+// Cameras and lights of the document's scene, the first argument being GltfDocument::nodes. glTF's
+// lights are photometric (candela, lux): 683 lm/W turn them into watts. Throws MeshFileError.
 void read_gltf_cameras_and_lights(const nlohmann::json& document, MeshFile& out);
 
 // "%20" is a space, and so on.

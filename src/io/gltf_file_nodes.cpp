@@ -140,11 +140,15 @@ class NodeReader {
 }  // namespace
 
 void read_gltf_cameras_and_lights(const Json& document, MeshFile& out) {
-  NodeReader reader(document, out);
-  const Json& scenes = list(document, "scenes");
-  if (scenes.empty()) return;
-  const Json& scene = scenes.at(document.value("scene", std::size_t{0}));
-  for (const Json& root : list(scene, "nodes")) reader.read(root, glm::dmat4x3{1.0});
+  try {
+    NodeReader reader(document, out);
+    const Json& scenes = list(document, "scenes");
+    if (scenes.empty()) return;
+    const Json& scene = scenes.at(document.value("scene", std::size_t{0}));
+    for (const Json& root : list(scene, "nodes")) reader.read(root, glm::dmat4x3{1.0});
+  } catch (const Json::exception&) {
+    throw MeshFileError("a camera or light is not of the kind that glTF asks for");
+  }
 }
 
 }  // namespace pah

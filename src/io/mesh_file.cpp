@@ -50,15 +50,15 @@ class ImportedScene {
 
   [[nodiscard]] const aiScene& operator*() const { return *scene_; }
   [[nodiscard]] const aiScene* operator->() const { return scene_; }
-  // Null for other formats.
-  [[nodiscard]] const nlohmann::json& gltf() const { return gltf_; }
+  // Empty for other formats.
+  [[nodiscard]] const nlohmann::json& gltf() const { return gltf_.nodes; }
 
  private:
   void check(const MeshFileOptions& options) const;
 
   Assimp::Importer importer_;
   const aiScene* scene_ = nullptr;
-  nlohmann::json gltf_;
+  GltfDocument gltf_;
 };
 
 ImportedScene::ImportedScene(const fs::path& file, const MeshFileOptions& options, bool strict) {
@@ -81,6 +81,7 @@ ImportedScene::ImportedScene(const fs::path& file, const MeshFileOptions& option
     gltf_ = read_gltf_document(file, folder, options.file_bytes);
 
   auto* const files = new LimitedFiles(file, folder, options.file_bytes);
+  if (!gltf_.cleaned.empty()) files->replace_main(gltf_.cleaned);
   importer_.SetIOHandler(files);  // which owns it
   keep_importer(importer_, extension);
   scene_ = importer_.ReadFile(file.string(), 0);
@@ -312,7 +313,7 @@ MeshFile read_mesh_file(const fs::path& file, const MeshFileOptions& options) {
             {*ids[p.mesh], scene->mMeshes[p.mesh]->mMaterialIndex, p.world_from_object});
     if (result.parts.empty()) fail_empty();
     read_materials(*scene, file, folder_of(file, options.folder), result);
-    if (!scene.gltf().is_null()) read_gltf_cameras_and_lights(scene.gltf(), result);
+    read_gltf_cameras_and_lights(scene.gltf(), result);
     return result;
   });
 }

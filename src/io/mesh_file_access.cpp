@@ -1,7 +1,10 @@
 #include "io/mesh_file_access.hpp"
 
-#include <algorithm>
+#include <assimp/MemoryIOWrapper.h>
+
 #include <cstring>
+#include <fstream>
+#include <iterator>
 #include <system_error>
 
 namespace pah {
@@ -13,6 +16,25 @@ fs::path whole(const fs::path& path) {
   std::error_code error;
   const fs::path absolute = fs::absolute(path, error);
   return (error ? path : absolute).lexically_normal();
+}
+
+// The place of the line that begins the first material; the end if there is none.
+std::size_t first_material(std::string_view text) {
+  constexpr std::string_view keyword = "newmtl";
+  for (std::size_t line = 0; line < text.size();) {
+    const std::size_t word = text.find_first_not_of(" \t", line);
+    if (word == std::string_view::npos) break;
+    if (text.substr(word, keyword.size()) == keyword) return word;
+    line = text.find('\n', line);
+    if (line == std::string_view::npos) break;
+    ++line;
+  }
+  return text.size();
+}
+
+Assimp::IOStream* stream_of(std::string_view bytes) {
+  return new Assimp::MemoryIOStream(reinterpret_cast<const std::uint8_t*>(bytes.data()),
+                                    bytes.size());
 }
 
 }  // namespace
@@ -46,10 +68,18 @@ bool LimitedFiles::Exists(const char* file) const {
 
 Assimp::IOStream* LimitedFiles::Open(const char* file, const char* mode) {
   std::error_code error;
-  const bool reads = std::strchr(mode, 'w') == nullptr && std::strchr(mode, 'a') == nullptr;
-  return reads && Exists(file) && fs::is_regular_file(file, error)
-             ? DefaultIOSystem::Open(file, mode)
-             : nullptr;
+  const bool writes = std::strpbrk(mode, "wa+") != nullptr;
+  if (writes || !Exists(file) || !fs::is_regular_file(file, error)) return nullptr;
+  const bool is_main = whole(file) == whole(main_);
+  const bool is_gltf = !main_bytes_.empty();
+  if (is_main && is_gltf) return stream_of(main_bytes_);
+  if (is_main || is_gltf) return DefaultIOSystem::Open(file, mode);
+  // What else an OBJ opens is a library of materials.
+  std::ifstream stream(file, std::ios::binary);
+  std::string text((std::istreambuf_iterator<char>(stream)), {});
+  text.erase(0, first_material(text));
+  libraries_.push_back(std::move(text));
+  return stream_of(libraries_.back());
 }
 
 }  // namespace pah

@@ -290,6 +290,19 @@ TEST_CASE("glTF: what is broken is said") {
   CHECK(has(files.error_of(square()), "position of vertex 0 is not finite"));
 }
 
+TEST_CASE("glTF: skins, morphs and animations are left aside") {
+  const Files files;
+  Json json = square();
+  json["skins"] = Json::parse(R"([{"joints": [0, 99]}])");
+  json["animations"] = Json::parse(R"([{"channels": [{"sampler": 3}], "samplers": 7}])");
+  json["nodes"][0]["skin"] = 0;
+  json["meshes"][0]["weights"] = {1};
+  json["meshes"][0]["primitives"][0]["targets"] = {{{"POSITION", 99}}};
+  json["meshes"][0]["primitives"][0]["attributes"]["JOINTS_0"] = 99;
+  for (const auto& file : {files.write(json), files.write_binary(json)})
+    CHECK(read_mesh(file).triangles.size() == 2);
+}
+
 TEST_CASE("glTF: nodes in a circle, too deep, or shared") {
   const Files files;
   Json json = square();

@@ -326,6 +326,16 @@ TEST_CASE("OBJ: materials") {
   CHECK_THROWS_WITH(read_mesh_file(file), Catch::Contains("there is no image 'maps/wood.png'"));
 }
 
+TEST_CASE("OBJ: materials that begin with no name") {
+  const TemporaryFolder folder;
+  const auto file = write(
+      folder, "a.obj", "mtllib a.mtl\n" + tetrahedron_positions + "usemtl a\n" + tetrahedron_faces);
+  for (const char* text : {"Kd 1 0 0\nnewmtl a\nKd 0 1 0\n", "map_Kd none.png\n", "d 1\n", ""}) {
+    write(folder, "a.mtl", text);
+    CHECK(read_mesh_file(file).parts.size() == 1);
+  }
+}
+
 TEST_CASE("no file outside of the folder is opened") {
   const TemporaryFolder folder;
   std::filesystem::create_directory(folder / "scene");
