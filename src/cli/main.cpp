@@ -13,6 +13,7 @@
 #include "cli/accelerators.hpp"
 #include "cli/compare_command.hpp"
 #include "cli/exit_code.hpp"
+#include "cli/inspect_command.hpp"
 #include "cli/render_command.hpp"
 
 namespace pah::cli {
@@ -131,6 +132,41 @@ CLI::App* add_compare(CLI::App& app, CompareArguments& arguments) {
   return compare;
 }
 
+CLI::App* add_inspect(CLI::App& app, InspectArguments& arguments) {
+  CLI::App* inspect =
+      app.add_subcommand("inspect", "Print what a scene's BVH is like and what it costs rays");
+  inspect->get_formatter()->column_width(25);
+  inspect->add_option("SCENE", arguments.scene, "A YAML file")->required()->type_name("");
+  inspect
+      ->add_option("-D", arguments.overrides,
+                   "Set a key of the scene: -D film.width=64. May be\nrepeated")
+      ->allow_extra_args(false)
+      ->type_name("KEY=VALUE");
+  inspect->add_option("--width", arguments.width, "Camera rays in a row")
+      ->check(whole_number(1, 65536))
+      ->type_name("N");
+  inspect->add_option("--height", arguments.height, "Rows of camera rays")
+      ->check(whole_number(1, 65536))
+      ->type_name("N");
+  inspect->add_option("--json", arguments.json, "Write the report as JSON")->type_name("FILE");
+  inspect->add_option("--csv", arguments.csv, "Write the report as rows of numbers")
+      ->type_name("FILE");
+  inspect
+      ->add_option("--heatmap", arguments.heat_map,
+                   "Write a picture of what each pixel's ray costs:\n"
+                   "nodes on the left, triangles on the right")
+      ->type_name("FILE.png");
+  inspect
+      ->add_option("--boxes", arguments.boxes,
+                   "Write the boxes of the topmost levels as lines, a\ncolour for each level")
+      ->type_name("FILE.gltf");
+  inspect->add_option("--levels", arguments.levels, "How many levels --boxes writes")
+      ->capture_default_str()
+      ->check(whole_number(1, 80))
+      ->type_name("N");
+  return inspect;
+}
+
 // Options before a subcommand would be silently ignored.
 void reject_render_options(const CLI::App& app, const CLI::App& subcommand) {
   for (const CLI::Option* option : app.get_options())
@@ -150,8 +186,10 @@ ExitCode run(int argc, char** argv) {
   app.get_formatter()->column_width(25);
   RenderArguments render_arguments;
   CompareArguments compare_arguments;
+  InspectArguments inspect_arguments;
   add_render_options(app, render_arguments);
   const CLI::App* compare = add_compare(app, compare_arguments);
+  const CLI::App* inspect = add_inspect(app, inspect_arguments);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -162,6 +200,10 @@ ExitCode run(int argc, char** argv) {
   if (compare->parsed()) {
     reject_render_options(app, *compare);
     return run_compare(compare_arguments);
+  }
+  if (inspect->parsed()) {
+    reject_render_options(app, *inspect);
+    return run_inspect(inspect_arguments);
   }
   if (render_arguments.scene.empty()) throw UsageError("which scene?");
   return run_render(render_arguments);

@@ -34,15 +34,27 @@ CameraRays::CameraRays(const Camera& camera, const FilmSettings& film)
   half_width_ = static_cast<float>(half_height * film.width / film.height);
 }
 
+Vec3 CameraRays::from_axis(float x, float y) const {
+  const float sx = (2 * x / width_ - 1) * half_width_;
+  const float sy = (1 - 2 * y / height_) * half_height_;
+  return sx * right_ + sy * up_;
+}
+
+Ray CameraRays::central(int x, int y) const {
+  const Vec3 offset = from_axis(static_cast<float>(x) + 0.5F, static_cast<float>(y) + 0.5F);
+  Ray ray;
+  ray.origin = perspective_ ? position_ : position_ + offset;
+  ray.direction = perspective_ ? glm::normalize(forward_ + offset) : forward_;
+  if (perspective_ && aperture_radius_ == 0) ray.bundle = camera_bundle;
+  return ray;
+}
+
 CameraRay CameraRays::generate(int x, int y, Sampler& sampler) const {
   const Vec2 u = sampler.next_2d();
   const Vec2 offset = filter_ == PixelFilter::box ? sample_box(u, filter_radius_)
                                                   : sample_blackman_harris(u, filter_radius_);
-  const float px = static_cast<float>(x) + 0.5F + offset.x;
-  const float py = static_cast<float>(y) + 0.5F + offset.y;
-  const float sx = (2 * px / width_ - 1) * half_width_;
-  const float sy = (1 - 2 * py / height_) * half_height_;
-  const Vec3 across = sx * right_ + sy * up_;
+  const Vec3 across =
+      from_axis(static_cast<float>(x) + 0.5F + offset.x, static_cast<float>(y) + 0.5F + offset.y);
   const float pixel = 2 * half_height_ / height_;
 
   CameraRay out;

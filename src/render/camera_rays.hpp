@@ -24,7 +24,13 @@ class CameraRays {
   // The filter is importance-sampled: every sample belongs to its pixel, with weight 1.
   [[nodiscard]] CameraRay generate(int x, int y, Sampler& sampler) const;
 
+  // Through the centres of the pixel and of the lens.
+  [[nodiscard]] Ray central(int x, int y) const;
+
  private:
+  // From the axis to the point (x, y), in pixels, of the picture.
+  [[nodiscard]] Vec3 from_axis(float x, float y) const;
+
   PixelFilter filter_;
   float filter_radius_;
   float width_, height_;  // pixels

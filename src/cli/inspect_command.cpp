@@ -1,0 +1,103 @@
+#include "cli/inspect_command.hpp"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <numeric>
+#include <pah/io/image_file.hpp>
+#include <pah/io/load_scene.hpp>
+#include <pah/scene/world.hpp>
+
+#include "bvh/build_bvh.hpp"
+#include "cli/interrupt.hpp"
+#include "io/output_file.hpp"
+#include "report/box_gltf.hpp"
+#include "report/false_colour.hpp"
+#include "report/inspect_report.hpp"
+
+namespace pah::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Before the work rather than after it.
+void check_outputs(const InspectArguments& arguments) {
+  const auto check_extension = [](const fs::path& file, std::string_view option,
+                                  std::string_view extension) {
+    if (!file.empty() && file.extension() != extension)
+      throw UsageError(fmt::format("{} writes {} files: {} is none by its extension", option,
+                                   extension, file.string()));
+  };
+  check_extension(arguments.heat_map, "--heatmap", ".png");
+  check_extension(arguments.boxes, "--boxes", ".gltf");
+  for (const fs::path* file :
+       {&arguments.json, &arguments.csv, &arguments.heat_map, &arguments.boxes})
+    if (!file->empty()) check_can_create(*file);
+}
+
+void apply(const InspectArguments& arguments, FilmSettings& film) {
+  film.width = arguments.width.value_or(film.width);
+  film.height = arguments.height.value_or(film.height);
+  const auto pixels = static_cast<std::uint64_t>(film.width) * static_cast<unsigned>(film.height);
+  if (pixels > LoadLimits{}.film_pixels)
+    throw UsageError(fmt::format("a picture of {} x {} pixels is too large; at most {} pixels",
+                                 film.width, film.height, LoadLimits{}.film_pixels));
+}
+
+struct TimedBvh {
+  BuiltBvh built;
+  double seconds = 0;
+};
+
+// As renders without influence areas have it.
+TimedBvh build_global(const Triangles& triangles) {
+  const auto start = std::chrono::steady_clock::now();
+  std::vector<std::uint32_t> all(triangles.size());
+  std::iota(all.begin(), all.end(), 0U);
+  BuiltBvh built = build_bvh_and_tree(triangles, all);
+  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+  return {std::move(built), seconds.count()};
+}
+
+}  // namespace
+
+ExitCode run_inspect(const InspectArguments& arguments) {
+  handle_interrupts();
+  check_outputs(arguments);
+  LoadedScene loaded = load_scene(arguments.scene, {arguments.overrides, {}});
+  Scene& scene = loaded.scene;
+  apply(arguments, scene.film);
+  const World world = make_world(scene);
+
+  const TimedBvh global = build_global(world.triangles());
+  const PictureCosts costs =
+      measure_costs(global.built.bvh, world.bounds, world.camera, scene.film);
+  InspectReport report;
+  report.version = PAHRENDER_VERSION;
+  report.scene = arguments.scene.string();
+  report.width = scene.film.width;
+  report.height = scene.film.height;
+  report.triangles = world.triangles().size();
+  report.bvhs.push_back({.name = "global",
+                         .heuristic = "surface area",
+                         .tree = summarize(global.built.tree, BuildConfig{}, SurfaceArea{}),
+                         .wide_nodes = global.built.bvh.nodes.size(),
+                         .camera_rays = summarize(costs),
+                         .memory_bytes = global.built.bvh.memory_bytes(),
+                         .build_seconds = global.seconds});
+
+  fmt::print("{}", inspect_text(report));
+  if (!arguments.json.empty()) write_text_file(arguments.json, inspect_json(report));
+  if (!arguments.csv.empty()) write_text_file(arguments.csv, inspect_csv(report));
+  if (!arguments.boxes.empty())
+    write_text_file(arguments.boxes, boxes_gltf(global.built.tree, arguments.levels, world.origin));
+  if (!arguments.heat_map.empty()) {
+    const CostSummary& most = report.bvhs.front().camera_rays;
+    write_image(arguments.heat_map, {{"", {"R", "G", "B"}, heat_map(costs)}});
+    fmt::print("\nheat map {}: white is {} nodes on the left, {} triangles on the right\n",
+               arguments.heat_map.string(), most.max_nodes, most.max_triangles);
+  }
+  return ExitCode::done;
+}
+
+}  // namespace pah::cli

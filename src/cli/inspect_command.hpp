@@ -1,0 +1,28 @@
+// pahrender inspect SCENE
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cli/exit_code.hpp"
+
+namespace pah::cli {
+
+// What is not set stays as the scene says; files that are not named are not written.
+struct InspectArguments {
+  std::filesystem::path scene;
+  std::vector<std::string> overrides;  // key.path=value
+  std::optional<int> width, height;
+  std::filesystem::path json, csv;
+  std::filesystem::path heat_map;  // .png
+  std::filesystem::path boxes;     // .gltf
+  std::uint32_t levels = 8;        // of boxes
+};
+
+// Throws UsageError, SceneError or FileError.
+ExitCode run_inspect(const InspectArguments& arguments);
+
+}  // namespace pah::cli

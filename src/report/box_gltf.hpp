@@ -1,0 +1,15 @@
+// A tree's boxes as a glTF 2.0 file for any viewer.
+#pragma once
+
+#include <string>
+
+#include "bvh/binary_tree.hpp"
+
+namespace pah {
+
+// The boxes of the first `levels` levels as lines: a node, a mesh and a colour for each level, so
+// that viewers can switch them off. `origin` is added to the boxes' coordinates.
+[[nodiscard]] std::string boxes_gltf(const BinaryTree& tree, std::uint32_t levels,
+                                     const DVec3& origin);
+
+}  // namespace pah

@@ -1,0 +1,162 @@
+#include "report/inspect_report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+namespace pah {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string format_bytes(std::uint64_t bytes) {
+  const auto b = static_cast<double>(bytes);
+  if (b >= 1e9) return fmt::format("{:.2f} GB", b / 1e9);
+  if (b >= 1e6) return fmt::format("{:.2f} MB", b / 1e6);
+  if (b >= 1e3) return fmt::format("{:.2f} kB", b / 1e3);
+  return fmt::format("{} bytes", bytes);
+}
+
+double hit_share(const CostSummary& rays) {
+  return rays.rays == 0 ? 0 : static_cast<double>(rays.hits) / static_cast<double>(rays.rays);
+}
+
+std::string leaf_sizes_text(const TreeSummary& tree) {
+  constexpr std::uint64_t bar_width = 40;
+  std::uint64_t most = 1;
+  for (const std::uint64_t leaves : tree.leaf_sizes) most = std::max(most, leaves);
+  std::string text = "  triangles     leaves\n";
+  for (std::size_t size = 1; size < tree.leaf_sizes.size(); ++size) {
+    const std::uint64_t leaves = tree.leaf_sizes[size];
+    const std::string bar((leaves * bar_width + most - 1) / most, '#');
+    text += fmt::format("  {:9} {:10}{}{}\n", size, leaves, bar.empty() ? "" : "  ", bar);
+  }
+  return text;
+}
+
+std::string levels_text(const TreeSummary& tree) {
+  std::string text = "  level      nodes     leaves  overlap of siblings\n";
+  for (std::size_t depth = 0; depth < tree.levels.size(); ++depth) {
+    const TreeLevel& level = tree.levels[depth];
+    text += fmt::format("  {:5} {:10} {:10}", depth, level.nodes, level.leaves);
+    if (level.nodes > level.leaves) text += fmt::format("  {:5.1f} %", 100 * level.overlap);
+    text += '\n';
+  }
+  return text;
+}
+
+std::string bvh_text(const BvhReport& bvh) {
+  const TreeSummary& tree = bvh.tree;
+  const CostSummary& rays = bvh.camera_rays;
+  std::string text = fmt::format("\nBVH {} ({})\n", bvh.name, bvh.heuristic);
+  const auto line = [&](std::string_view name, const std::string& what) {
+    text += fmt::format("  {:18}{}\n", name, what);
+  };
+  line("triangles", fmt::format("{}", tree.triangles));
+  line("nodes", fmt::format("{}, of which {} leaves; {} eight-wide", tree.nodes, tree.leaves,
+                            bvh.wide_nodes));
+  line("depth of leaves", fmt::format("at most {}, mean {:.1f}", tree.max_depth, tree.mean_depth));
+  line("expected cost", fmt::format("{:.2f}", tree.expected_cost));
+  line("overlap", fmt::format("{:.1f} % of the parent, mean", 100 * tree.overlap));
+  line("camera rays", fmt::format("{}, of which {:.1f} % hit", rays.rays, 100 * hit_share(rays)));
+  line("  nodes", fmt::format("at most {}, mean {:.2f}", rays.max_nodes, rays.nodes_per_ray));
+  line("  triangles",
+       fmt::format("at most {}, mean {:.2f}", rays.max_triangles, rays.triangles_per_ray));
+  line("memory", format_bytes(bvh.memory_bytes));
+  line("build", fmt::format("{:.3g} s", bvh.build_seconds));
+  if (tree.nodes > 0) text += "\n" + leaf_sizes_text(tree) + "\n" + levels_text(tree);
+  return text;
+}
+
+Json bvh_json(const BvhReport& bvh) {
+  const TreeSummary& tree = bvh.tree;
+  const CostSummary& rays = bvh.camera_rays;
+  Json sizes = Json::array();
+  for (std::size_t size = 1; size < tree.leaf_sizes.size(); ++size)
+    sizes.push_back({{"triangles", size}, {"leaves", tree.leaf_sizes[size]}});
+  Json levels = Json::array();
+  for (const TreeLevel& level : tree.levels)
+    levels.push_back(
+        {{"nodes", level.nodes}, {"leaves", level.leaves}, {"overlap", level.overlap}});
+  return {{"name", bvh.name},
+          {"heuristic", bvh.heuristic},
+          {"triangles", tree.triangles},
+          {"nodes", tree.nodes},
+          {"leaves", tree.leaves},
+          {"wide_nodes", bvh.wide_nodes},
+          {"depth", {{"max", tree.max_depth}, {"mean", tree.mean_depth}}},
+          {"expected_cost", tree.expected_cost},
+          {"overlap", tree.overlap},
+          {"camera_rays",
+           {{"rays", rays.rays},
+            {"hits", rays.hits},
+            {"nodes_per_ray", rays.nodes_per_ray},
+            {"triangles_per_ray", rays.triangles_per_ray},
+            {"max_nodes", rays.max_nodes},
+            {"max_triangles", rays.max_triangles}}},
+          {"memory_bytes", bvh.memory_bytes},
+          {"build_seconds", bvh.build_seconds},
+          {"leaf_sizes", std::move(sizes)},
+          {"levels", std::move(levels)}};
+}
+
+}  // namespace
+
+std::string inspect_text(const InspectReport& report) {
+  std::string text = fmt::format("{}: {} triangles, {} x {} pixels\n", report.scene,
+                                 report.triangles, report.width, report.height);
+  for (const BvhReport& bvh : report.bvhs) text += bvh_text(bvh);
+  return text;
+}
+
+std::string inspect_json(const InspectReport& report) {
+  Json json{{"version", report.version}, {"scene", report.scene},         {"width", report.width},
+            {"height", report.height},   {"triangles", report.triangles}, {"bvhs", Json::array()}};
+  for (const BvhReport& bvh : report.bvhs) json["bvhs"].push_back(bvh_json(bvh));
+  // A scene's name may hold any bytes.
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::string inspect_csv(const InspectReport& report) {
+  std::string text = "bvh,quantity,at,value\n";
+  for (const BvhReport& bvh : report.bvhs) {
+    // Names may come from scenes.
+    std::string name = bvh.name;
+    for (std::size_t i = 0; (i = name.find('"', i)) != std::string::npos; i += 2)
+      name.insert(i, 1, '"');
+    if (name.find_first_of(",\"\r\n") != std::string::npos) name = '"' + name + '"';
+    const auto row = [&](std::string_view quantity, const std::string& at, auto value) {
+      text += fmt::format("{},{},{},{}\n", name, quantity, at, value);
+    };
+    const TreeSummary& tree = bvh.tree;
+    const CostSummary& rays = bvh.camera_rays;
+    row("triangles", "", tree.triangles);
+    row("nodes", "", tree.nodes);
+    row("leaves", "", tree.leaves);
+    row("wide_nodes", "", bvh.wide_nodes);
+    row("max_depth", "", tree.max_depth);
+    row("mean_depth", "", tree.mean_depth);
+    row("expected_cost", "", tree.expected_cost);
+    row("overlap", "", tree.overlap);
+    row("camera_rays", "", rays.rays);
+    row("camera_hits", "", rays.hits);
+    row("nodes_per_ray", "", rays.nodes_per_ray);
+    row("triangles_per_ray", "", rays.triangles_per_ray);
+    row("max_nodes", "", rays.max_nodes);
+    row("max_triangles", "", rays.max_triangles);
+    row("memory_bytes", "", bvh.memory_bytes);
+    row("build_seconds", "", bvh.build_seconds);
+    for (std::size_t size = 1; size < tree.leaf_sizes.size(); ++size)
+      row("leaves_of_size", std::to_string(size), tree.leaf_sizes[size]);
+    for (std::size_t depth = 0; depth < tree.levels.size(); ++depth) {
+      const TreeLevel& level = tree.levels[depth];
+      row("nodes_of_level", std::to_string(depth), level.nodes);
+      row("leaves_of_level", std::to_string(depth), level.leaves);
+      row("overlap_of_level", std::to_string(depth), level.overlap);
+    }
+  }
+  return text;
+}
+
+}  // namespace pah

@@ -1,0 +1,37 @@
+// What `pahrender inspect` tells of a scene's BVHs, for people and for tools.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "bvh/analyze.hpp"
+#include "report/ray_costs.hpp"
+
+namespace pah {
+
+struct BvhReport {
+  std::string name;
+  std::string heuristic;
+  TreeSummary tree;              // as it was built, with two children a node
+  std::uint64_t wide_nodes = 0;  // as it is traversed, with up to eight
+  CostSummary camera_rays;
+  std::uint64_t memory_bytes = 0;
+  double build_seconds = 0;
+};
+
+struct InspectReport {
+  std::string version;
+  std::string scene;  // as it was named
+  int width = 0, height = 0;
+  std::uint64_t triangles = 0;
+  std::vector<BvhReport> bvhs;
+};
+
+[[nodiscard]] std::string inspect_text(const InspectReport& report);
+[[nodiscard]] std::string inspect_json(const InspectReport& report);
+// A row for every number: "bvh,quantity,at,value", where `at` is the level, the triangles of a leaf
+// or nothing.
+[[nodiscard]] std::string inspect_csv(const InspectReport& report);
+
+}  // namespace pah

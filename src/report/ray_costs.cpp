@@ -1,0 +1,51 @@
+#include "report/ray_costs.hpp"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+
+#include "accel/batch.hpp"
+#include "render/camera_rays.hpp"
+
+namespace pah {
+
+PictureCosts measure_costs(const Bvh& bvh, const Aabb& bounds, const Camera& camera,
+                           const FilmSettings& film) {
+  const CameraRays camera_rays(camera, film);
+  const auto width = static_cast<std::size_t>(film.width);
+  PictureCosts costs{film.width, film.height, {}};
+  costs.rays.resize(width * static_cast<std::size_t>(film.height));
+  tbb::parallel_for(0, film.height, [&](int y) {
+    for (int x = 0; x < film.width; ++x) {
+      // By itself, so that the counts are its own.
+      const PreparedRay ray = prepare(camera_rays.central(x, y), bounds);
+      Hit hit = nothing_yet(ray);
+      TraversalCounts counts;
+      closest_hits(bvh, std::span(&ray, 1), std::span(&hit, 1), &counts);
+      costs.rays[static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x)] = {
+          static_cast<std::uint32_t>(counts.nodes), static_cast<std::uint32_t>(counts.triangles),
+          hit.valid()};
+    }
+  });
+  return costs;
+}
+
+CostSummary summarize(const PictureCosts& costs) {
+  CostSummary sum;
+  std::uint64_t nodes = 0, triangles = 0;
+  for (const RayCost& ray : costs.rays) {
+    sum.hits += ray.hit ? 1 : 0;
+    nodes += ray.nodes;
+    triangles += ray.triangles;
+    sum.max_nodes = std::max(sum.max_nodes, ray.nodes);
+    sum.max_triangles = std::max(sum.max_triangles, ray.triangles);
+  }
+  sum.rays = costs.rays.size();
+  if (sum.rays > 0) {
+    sum.nodes_per_ray = static_cast<double>(nodes) / static_cast<double>(sum.rays);
+    sum.triangles_per_ray = static_cast<double>(triangles) / static_cast<double>(sum.rays);
+  }
+  return sum;
+}
+
+}  // namespace pah

@@ -1,0 +1,105 @@
+// What rays cost, and its colours.
+#include <numeric>
+#include <pah/accel/accelerator.hpp>
+
+#include "bvh/build_bvh.hpp"
+#include "catch.hpp"
+#include "render/camera_rays.hpp"
+#include "report/false_colour.hpp"
+#include "support/soups.hpp"
+
+using namespace pah;
+
+namespace {
+
+double srgb_from_linear(double v) {
+  return v <= 0.0031308 ? 12.92 * v : 1.055 * std::pow(v, 1 / 2.4) - 0.055;
+}
+
+// As defined for encoded values: what Green's scheme is even in.
+double brightness(const Vec3& colour) {
+  return 0.3 * srgb_from_linear(colour.x) + 0.59 * srgb_from_linear(colour.y) +
+         0.11 * srgb_from_linear(colour.z);
+}
+
+}  // namespace
+
+TEST_CASE("Every pixel's ray is counted as the accelerator counts it alone") {
+  const test::Soup soup = test::random_soup(500, 0.2F, Vec3{0}, 1);
+  const Triangles triangles = soup.triangles();
+  std::vector<std::uint32_t> all(triangles.size());
+  std::iota(all.begin(), all.end(), 0U);
+  const Aabb bounds = bounds_of(triangles);
+  PerspectiveCamera camera;
+  camera.position = DVec3(bounds.center()) + DVec3{0, 0, 4};
+  camera.look_at = DVec3(bounds.center());
+  FilmSettings film;
+  film.width = 24;
+  film.height = 16;
+  const PictureCosts costs = measure_costs(build_bvh(triangles, all), bounds, camera, film);
+  REQUIRE(costs.rays.size() == 24 * 16);
+
+  const auto accelerator = make_global_bvh(triangles);
+  const CameraRays rays(camera, film);
+  std::uint64_t nodes = 0, tests = 0, hits = 0, wrong = 0;
+  for (int y = 0; y < film.height; ++y) {
+    for (int x = 0; x < film.width; ++x) {
+      const Ray ray = rays.central(x, y);
+      Hit hit;
+      TraversalCounts counts;
+      accelerator->closest_hit(std::span(&ray, 1), std::span(&hit, 1), &counts);
+      const RayCost& cost = costs.rays[static_cast<std::size_t>(y * film.width + x)];
+      wrong += cost.nodes == counts.nodes && cost.triangles == counts.triangles &&
+                       cost.hit == hit.valid()
+                   ? 0
+                   : 1;
+      nodes += counts.nodes;
+      tests += counts.triangles;
+      hits += hit.valid() ? 1 : 0;
+    }
+  }
+  CHECK(wrong == 0);
+  CHECK(hits > 50);
+  const CostSummary sum = summarize(costs);
+  CHECK(sum.rays == 24 * 16);
+  CHECK(sum.hits == hits);
+  CHECK(sum.nodes_per_ray == Approx(static_cast<double>(nodes) / (24 * 16)));
+  CHECK(sum.triangles_per_ray == Approx(static_cast<double>(tests) / (24 * 16)));
+}
+
+TEST_CASE("Rays through the centres of pixels") {
+  PerspectiveCamera camera;
+  camera.position = {0, 0, 5};
+  camera.look_at = {0, 0, 0};
+  camera.fov = 90;
+  FilmSettings film;
+  film.width = film.height = 4;
+  const Ray ray = CameraRays(camera, film).central(3, 0);
+  const Vec3 expected = glm::normalize(Vec3{0.75F, 0.75F, -1});
+  CHECK(glm::length(ray.direction - expected) < 1e-6F);
+  CHECK(ray.origin == Vec3{0, 0, 5});
+}
+
+TEST_CASE("False colours grow evenly in brightness, from black to white") {
+  CHECK(false_colour(0) == Vec3{0});
+  CHECK(glm::length(false_colour(1) - Vec3{1}) < 1e-6F);
+  for (int i = 0; i <= 100; ++i)
+    CHECK(brightness(false_colour(i / 100.0)) == Approx(i / 100.0).margin(2e-3));
+}
+
+TEST_CASE("A heat map has nodes on the left and triangles on the right") {
+  PictureCosts costs{2, 2, {{4, 0, true}, {0, 3, false}, {2, 6, true}, {1, 0, false}}};
+  const Image image = heat_map(costs);
+  REQUIRE(image.width == 4);
+  REQUIRE(image.height == 2);
+  CHECK(image.at(0, 0) == false_colour(1));
+  CHECK(image.at(1, 0) == false_colour(0));
+  CHECK(image.at(0, 1) == false_colour(0.5));
+  CHECK(image.at(1, 1) == false_colour(0.25));
+  CHECK(image.at(2, 0) == false_colour(0));
+  CHECK(image.at(3, 0) == false_colour(0.5));
+  CHECK(image.at(2, 1) == false_colour(1));
+  CHECK(image.at(3, 1) == false_colour(0));
+  for (RayCost& ray : costs.rays) ray = {};
+  for (const Vec3& pixel : heat_map(costs).pixels) CHECK(pixel == Vec3{0});
+}

@@ -1,0 +1,68 @@
+// Numbers of a tree made by hand.
+#include <pah/bvh/build_config.hpp>
+
+#include "bvh/analyze.hpp"
+#include "catch.hpp"
+#include "hand_made_tree.hpp"
+
+using namespace pah;
+
+TEST_CASE("A visit meets every node once, level by level, then ends") {
+  const BinaryTree tree = test::hand_made_tree();
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> seen;
+  const auto see = [&](const NodeVisit& visit) { seen.emplace_back(visit.index, visit.depth); };
+  const std::size_t total = visit_tree(tree, see, [&] { return seen.size(); });
+  CHECK(total == 5);
+  CHECK(seen == std::vector<std::pair<std::uint32_t, std::uint32_t>>{
+                    {0, 0}, {1, 1}, {2, 1}, {3, 2}, {4, 2}});
+}
+
+TEST_CASE("A visit to an empty tree only ends") {
+  int nodes = 0;
+  CHECK(visit_tree(
+            BinaryTree{}, [&](const NodeVisit&) { ++nodes; }, [] { return 7; }) == 7);
+  CHECK(nodes == 0);
+}
+
+TEST_CASE("The summary of a tree is exact") {
+  const TreeSummary sum = summarize(test::hand_made_tree(), BuildConfig{}, SurfaceArea{});
+  CHECK(sum.triangles == 10);
+  CHECK(sum.nodes == 5);
+  CHECK(sum.leaves == 3);
+  CHECK(sum.max_depth == 2);
+  CHECK(sum.mean_depth == Approx(5.0 / 3));
+  CHECK(sum.leaf_sizes == std::vector<std::uint64_t>{0, 0, 1, 1, 0, 1});
+
+  REQUIRE(sum.levels.size() == 3);
+  CHECK(sum.levels[0].nodes == 1);
+  CHECK(sum.levels[0].leaves == 0);
+  CHECK(sum.levels[0].overlap == Approx(8.0 / 20));
+  CHECK(sum.levels[1].nodes == 2);
+  CHECK(sum.levels[1].leaves == 1);
+  CHECK(sum.levels[1].overlap == Approx(4.0 / 14));
+  CHECK(sum.levels[2].nodes == 2);
+  CHECK(sum.levels[2].leaves == 2);
+  CHECK(sum.levels[2].overlap == 0);
+  CHECK(sum.overlap == Approx((8.0 / 20 + 4.0 / 14) / 2));
+
+  // Two box tests for an inner node, one test of a block for up to four triangles: over the root's
+  // area, 2 * 20 + 2 * 14 + 1.2 * (14 + 8 + 2 * 10).
+  CHECK(sum.expected_cost == Approx((2 * 20 + 2 * 14 + 1.2 * (14 + 8 + 2 * 10)) / 20));
+}
+
+TEST_CASE("Siblings apart do not overlap, nor do those of a box without area") {
+  BinaryTree tree = test::hand_made_tree();
+  tree.nodes[4].box.min.x = 1.25F;
+  CHECK(summarize(tree, BuildConfig{}, SurfaceArea{}).levels[1].overlap == 0);
+  for (BinaryTree::Node& node : tree.nodes) node.box = {Vec3{1}, Vec3{1}};
+  CHECK(summarize(tree, BuildConfig{}, SurfaceArea{}).overlap == 0);
+}
+
+TEST_CASE("An empty tree has an empty summary") {
+  const TreeSummary sum = summarize(BinaryTree{}, BuildConfig{}, SurfaceArea{});
+  CHECK(sum.nodes == 0);
+  CHECK(sum.levels.empty());
+  CHECK(sum.mean_depth == 0);
+  CHECK(sum.overlap == 0);
+  CHECK(sum.expected_cost == 0);
+}
