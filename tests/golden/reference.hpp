@@ -10,7 +10,8 @@
 
 namespace pah::golden {
 
-inline constexpr std::array scene_names{"cornell",      "lamps",           "columns",  "sky",
+// The first is the cheapest.
+inline constexpr std::array scene_names{"lamps",        "cornell",         "columns",  "sky",
                                         "coated",       "glass_and_metal", "textured", "thin_lens",
                                         "orthographic", "scattered"};
 
