@@ -4,7 +4,7 @@
 namespace pah {
 namespace {
 
-// Interpolated linearly between the samples of: Au, Ag, Cu: P. B. Johnson and R. W. Christy,
+// The tabulated samples nearest to these wavelengths. Au, Ag, Cu: P. B. Johnson and R. W. Christy,
 // "Optical constants of the noble metals", Phys. Rev. B 6, 4370 (1972); Fe: the same, "Optical
 // constants of transition metals", Phys. Rev. B 9, 5056 (1974); Al: A. D. Rakic, "Algorithm for the
 // determination of intrinsic optical constants of metal films", Appl. Opt. 34, 4755 (1995).
