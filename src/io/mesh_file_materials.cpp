@@ -166,7 +166,7 @@ class MaterialReader {
 
   fs::path path_of(std::string name) {
     if (scene_.GetEmbeddedTexture(name.c_str()) != nullptr)
-      fail("images inside of the mesh file cannot be read; save them as files beside it");
+      fail("images inside of a mesh file cannot be read; save it with separate images");
     std::replace(name.begin(), name.end(), '\\', '/');
     // glTF's names are URIs, which the importer may have decoded or not.
     for (const fs::path& path : {fs::path(name), fs::path(decode_uri(name))}) {

@@ -229,6 +229,17 @@ TEST_CASE("glTF: textures") {
   CHECK(file.emission[file.parts[0].material] == Vec3(1, 2, 3));
 }
 
+TEST_CASE("glTF: images inside of the file are refused where they are wanted") {
+  const Files files;
+  Json json = square();
+  json["images"] = Json::parse(R"([{"bufferView": 0, "mimeType": "image/png"}])");
+  json["textures"] = Json::parse(R"([{"source": 0}])");
+  json["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"] = {{"index", 0}};
+  const auto file = files.write_binary(json);
+  CHECK(has(Files::error_of(file), "'paint': images inside of a mesh file cannot be read"));
+  CHECK(read_mesh(file).triangles.size() == 2);
+}
+
 TEST_CASE("glTF: nothing outside of the folder is opened") {
   const Files files;
   for (const char* uri : {"../square.bin", "/etc/passwd", "a/../../square.bin", "%2e%2e/square.bin",

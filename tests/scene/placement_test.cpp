@@ -79,15 +79,19 @@ TEST_CASE("scattered copies do not move between versions or platforms") {
   CHECK(copies[2][3].z == 0x1.a4c2be4ebc36ap-2);
 }
 
-TEST_CASE("a rectangle is covered evenly") {
+TEST_CASE("rectangles are covered evenly, whether by name or as two triangles") {
   ScatterOptions options;
   options.count = 16000;
-  int counts[16] = {};
-  for (const auto& m : scatter(DVec2{4, 4}, options))
-    ++counts[4 * static_cast<int>(m[3].x + 2) + static_cast<int>(m[3].z + 2)];
-  double chi_square = 0;
-  for (const int n : counts) chi_square += (n - 1000) * (n - 1000) / 1000.0;
-  CHECK(chi_square < 37.7);  // 15 degrees of freedom, p = 0.001
+  const Mesh mesh = make_mesh(RectangleShape{{4, 4}});
+  for (const auto& copies :
+       {scatter(DVec2{4, 4}, options), scatter(mesh, glm::dmat4x3{1.0}, options)}) {
+    int counts[16] = {};
+    for (const auto& m : copies)
+      ++counts[4 * static_cast<int>(m[3].x + 2) + static_cast<int>(m[3].z + 2)];
+    double chi_square = 0;
+    for (const int n : counts) chi_square += (n - 1000) * (n - 1000) / 1000.0;
+    CHECK(chi_square < 37.7);  // 15 degrees of freedom, p = 0.001
+  }
 }
 
 TEST_CASE("a mesh is covered by area and copies follow its normals") {
