@@ -15,6 +15,7 @@
 #include "cli/exit_code.hpp"
 #include "cli/inspect_command.hpp"
 #include "cli/render_command.hpp"
+#include "cli/study_command.hpp"
 
 namespace pah::cli {
 namespace {
@@ -167,6 +168,26 @@ CLI::App* add_inspect(CLI::App& app, InspectArguments& arguments) {
   return inspect;
 }
 
+CLI::App* add_study(CLI::App& app, StudyArguments& arguments) {
+  CLI::App* study = app.add_subcommand(
+      "study", "Measure how well heuristics predict and build local BVHs, over meshes and scenes");
+  study->get_formatter()->column_width(25);
+  study->add_option("FILE", arguments.files, "Mesh files and scenes")->required()->type_name("");
+  study->add_option("-o,--output", arguments.output, "The folder to write report.md and tables to")
+      ->required()
+      ->type_name("DIR");
+  study->add_flag("--quick", arguments.quick, "Fewer areas and rays: a first look");
+  study
+      ->add_option("--rays", arguments.rays,
+                   "Rays of each area; by default 100000, or\n5000 with --quick")
+      ->check(CLI::Range(1, 100'000'000).description(""))
+      ->type_name("N");
+  study->add_option("--seed", arguments.seed, "Of the rays; 1 by default")
+      ->check(CLI::NonNegativeNumber.description(""))
+      ->type_name("N");
+  return study;
+}
+
 // Options before a subcommand would be silently ignored.
 void reject_render_options(const CLI::App& app, const CLI::App& subcommand) {
   for (const CLI::Option* option : app.get_options())
@@ -187,9 +208,11 @@ ExitCode run(int argc, char** argv) {
   RenderArguments render_arguments;
   CompareArguments compare_arguments;
   InspectArguments inspect_arguments;
+  StudyArguments study_arguments;
   add_render_options(app, render_arguments);
   const CLI::App* compare = add_compare(app, compare_arguments);
   const CLI::App* inspect = add_inspect(app, inspect_arguments);
+  const CLI::App* study = add_study(app, study_arguments);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -204,6 +227,10 @@ ExitCode run(int argc, char** argv) {
   if (inspect->parsed()) {
     reject_render_options(app, *inspect);
     return run_inspect(inspect_arguments);
+  }
+  if (study->parsed()) {
+    reject_render_options(app, *study);
+    return run_study(study_arguments);
   }
   if (render_arguments.scene.empty()) throw UsageError("which scene?");
   return run_render(render_arguments);

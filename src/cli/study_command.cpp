@@ -1,0 +1,136 @@
+#include "cli/study_command.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <fstream>
+#include <pah/io/load_scene.hpp>
+#include <pah/io/mesh_file.hpp>
+#include <pah/scene/world.hpp>
+
+#include "cli/console.hpp"
+#include "io/output_file.hpp"
+#include "report/study.hpp"
+
+namespace pah::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string lower_extension(const fs::path& file) {
+  std::string extension = file.extension().string();
+  for (char& c : extension)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return extension;
+}
+
+bool is_scene(const fs::path& file) {
+  return lower_extension(file) == ".yaml" || lower_extension(file) == ".yml";
+}
+
+bool is_mesh(const fs::path& file) {
+  return std::ranges::find(mesh_extensions(), lower_extension(file)) != mesh_extensions().end();
+}
+
+[[noreturn]] void fail(const Location& where, const std::string& message,
+                       const std::string& excerpt = {}) {
+  std::vector<LocatedError> errors;
+  errors.push_back({where, message, excerpt, 0});
+  throw SceneError(std::move(errors));
+}
+
+StudyMesh load(const fs::path& file) {
+  StudyMesh study;
+  study.name = file.stem().string();
+  if (is_scene(file)) {
+    World world = make_world(load_scene(file).scene);
+    study.positions = std::move(world.positions);
+    study.indices = std::move(world.indices);
+    return study;
+  }
+  // Else the file is taken to be faulty, not missing.
+  if (!std::ifstream(file)) throw FileError("cannot read " + file.string());
+  try {
+    Mesh mesh = read_mesh(file);
+    study.positions = std::move(mesh.positions);
+    study.indices = std::move(mesh.triangles);
+  } catch (const MeshFileError& error) {
+    fail({file.string(), error.line(), error.column()}, error.what(), error.excerpt());
+  }
+  return study;
+}
+
+StudyMesh load_checked(const fs::path& file) {
+  StudyMesh mesh = load(file);
+  const Aabb bounds = bounds_of(mesh.triangles());
+  const char* fault = mesh.indices.empty()                 ? "there are no triangles to study"
+                      : bounds.min == bounds.max           ? "all triangles are one point"
+                      : mesh.indices.size() >= 1ULL << 31U ? "there are too many triangles"
+                                                           : nullptr;
+  if (fault != nullptr) fail({file.string(), 0, 0}, fault);
+  return mesh;
+}
+
+// Errors of all files at once.
+std::vector<StudyMesh> load_all(const std::vector<fs::path>& files) {
+  std::vector<StudyMesh> meshes;
+  std::vector<LocatedError> errors;
+  for (const fs::path& file : files) {
+    try {
+      meshes.push_back(load_checked(file));
+    } catch (const SceneError& error) {
+      errors.insert(errors.end(), error.errors().begin(), error.errors().end());
+      continue;
+    }
+    // Rows are told apart by their names.
+    const auto same =
+        std::ranges::find(meshes.begin(), meshes.end() - 1, meshes.back().name, &StudyMesh::name);
+    if (same != meshes.end() - 1)
+      meshes.back().name = fmt::format("{} ({})", meshes.back().name, meshes.size());
+  }
+  if (!errors.empty()) throw SceneError(std::move(errors));
+  return meshes;
+}
+
+void show_progress(double done, const std::string& what) {
+  fmt::print(stderr, "\r{:3.0f} %  {}\x1b[K", 100 * done, what);
+  std::fflush(stderr);
+}
+
+}  // namespace
+
+ExitCode run_study(const StudyArguments& arguments) {
+  for (const fs::path& file : arguments.files)
+    if (!is_scene(file) && !is_mesh(file))
+      throw UsageError(fmt::format("cannot study {}; it takes .yaml, {}", file.string(),
+                                   fmt::join(mesh_extensions(), ", ")));
+  const fs::path& folder = arguments.output;
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) throw FileError("cannot write " + folder.string() + ": " + error.message());
+  check_can_create(folder / "report.md");
+
+  StudyConfig config;
+  config.quick = arguments.quick;
+  config.seed = arguments.seed;
+  if (config.quick) config.rays = 5'000;
+  if (arguments.rays > 0) config.rays = arguments.rays;
+  const bool terminal = ProgressBar::possible();
+  const StudyResults results =
+      pah::run_study(load_all(arguments.files), config,
+                     terminal ? show_progress : std::function<void(double, const std::string&)>{});
+  if (terminal) fmt::print(stderr, "\r\x1b[K");
+
+  write_text_file(folder / "prediction.csv", prediction_csv(results));
+  write_text_file(folder / "cost.csv", cost_csv(results));
+  write_text_file(folder / "build.csv", build_csv(results));
+  write_text_file(folder / "sweep.csv", sweep_csv(results));
+  const bool plotted = write_study_plots(results, folder);
+  write_text_file(folder / "report.md", study_markdown(results, plotted));
+  fmt::print(stderr, "wrote {}{}\n", (folder / "report.md").string(),
+             plotted ? "" : "; plots skipped: gnuplot was not found or failed");
+  return ExitCode::done;
+}
+
+}  // namespace pah::cli

@@ -1,0 +1,23 @@
+// pahrender study FILE... -o DIR
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <vector>
+
+#include "cli/exit_code.hpp"
+
+namespace pah::cli {
+
+struct StudyArguments {
+  std::vector<std::filesystem::path> files;  // meshes and scenes
+  std::filesystem::path output;              // a folder, made if there is none
+  bool quick = false;
+  std::uint64_t rays = 0;  // per area; 0 for the default
+  std::uint64_t seed = 1;
+};
+
+// Throws SceneError for what is wrong with files, FileError for what cannot be read or written.
+ExitCode run_study(const StudyArguments& arguments);
+
+}  // namespace pah::cli

@@ -1,0 +1,111 @@
+// The thesis's experiments, repeated over any meshes: how well the heuristics predict what rays
+// cost, and what the trees that they build cost. Costs are counted, in units of a box test
+// (build_config.hpp), so that they depend on the seed alone and never on the machine. Only build
+// times are measured.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <pah/accel/local_bvhs.hpp>
+#include <string>
+#include <vector>
+
+namespace pah {
+
+struct StudyMesh {
+  std::string name;
+  std::vector<Vec3> positions;
+  std::vector<UVec3> indices;
+
+  [[nodiscard]] Triangles triangles() const { return {positions, indices}; }
+};
+
+struct StudyConfig {
+  std::uint64_t rays = 100'000;  // per area, at least 1
+  std::uint64_t seed = 1;
+  bool quick = false;  // fewer areas
+};
+
+// How an area's rays lie to the axes of the boxes: results depend on little else.
+enum class StudyGroup : std::uint8_t {
+  plane_axis,     // parallel rays along an axis
+  plane_15,       // 15 degrees off one
+  plane_45,       // halfway between two
+  plane_oblique,  // far from all
+  point_outside,  // of the mesh's bounding sphere
+  point_inside
+};
+inline constexpr std::size_t study_groups = 6;
+[[nodiscard]] const char* name_of(StudyGroup group);
+[[nodiscard]] inline bool is_point(StudyGroup group) { return group >= StudyGroup::point_outside; }
+
+[[nodiscard]] const char* name_of(LocalHeuristic heuristic);
+[[nodiscard]] const char* name_of(LocalSplit split);
+
+// Which tree a row is about.
+struct StudyCase {
+  std::string mesh, area;
+  StudyGroup group{};
+  std::uint64_t triangles = 0;  // of the local BVH
+  LocalHeuristic heuristic{};
+  LocalSplit split{};
+};
+
+// Expected cost of a ray that meets the root's box, by several measures of a box, beside the mean
+// over rays of the bundle.
+struct PredictionRow {
+  StudyCase tree;
+  double measured = 0;        // every node that the ray meets within the region
+  double standard_error = 0;  // of that mean
+  double closest = 0;         // what a search for the nearest hit visits of it
+  double pah = 0;             // clipped to the region, in the measure that the rays are uniform in
+  double pah_plane = 0;       // in the measure of the picture plane; the same for plane areas
+  double pah_unclipped = 0;
+  double sah = 0;
+};
+
+// What searches for the nearest hit cost.
+struct CostRow {
+  StudyCase tree;
+  double cost = 0;           // of a ray that meets the root, in the binary tree as it was built
+  double kernel_cost = 0;    // of any ray, in the renderer's tree, whose nodes are eight wide
+  double over_longest = 0;   // cost / that of SAH and the longest axis
+  double over_best = 0;      // cost / that of SAH and the best axis
+  double hit_share = 0;      // of all rays of the bundle
+  double break_even = 0;     // the share that must hit lest the global BVH alone be cheaper
+  double build_seconds = 0;  // CPU time
+};
+
+struct SweepRow {
+  StudyCase tree;
+  std::string parameter;
+  double value = 0;
+  double cost = 0;
+  double over_default = 0;
+};
+
+struct StudyResults {
+  StudyConfig config;
+  std::vector<PredictionRow> predictions;
+  std::vector<CostRow> costs;
+  std::vector<SweepRow> sweeps;
+  std::uint64_t skipped_areas = 0;  // that no ray finds a triangle's box in
+};
+
+// `progress(done, what)`, done in [0, 1], is called now and then. Meshes need an extent
+// and at least one triangle.
+[[nodiscard]] StudyResults run_study(
+    const std::vector<StudyMesh>& meshes, const StudyConfig& config,
+    const std::function<void(double, const std::string&)>& progress = {});
+
+[[nodiscard]] std::string prediction_csv(const StudyResults& results);
+[[nodiscard]] std::string cost_csv(const StudyResults& results);
+[[nodiscard]] std::string build_csv(const StudyResults& results);
+[[nodiscard]] std::string sweep_csv(const StudyResults& results);
+[[nodiscard]] std::string study_markdown(const StudyResults& results, bool with_plots);
+
+// Writes gnuplot's scripts into `folder` and runs them; false if there is no gnuplot that could.
+// Throws FileError.
+bool write_study_plots(const StudyResults& results, const std::filesystem::path& folder);
+
+}  // namespace pah

@@ -1,0 +1,110 @@
+#include <cmath>
+
+#include "catch.hpp"
+#include "report/study_areas.hpp"
+#include "report/study_local.hpp"
+#include "support/soups.hpp"
+
+using namespace pah;
+
+namespace {
+
+StudyMesh mesh_of(const test::Soup& soup) { return {soup.name, soup.positions, soup.indices}; }
+
+// The twelve triangles of an axis-aligned box.
+StudyMesh box_mesh(const Vec3& low, const Vec3& high) {
+  StudyMesh mesh{"box", {}, {}};
+  const Aabb box{low, high};
+  for (unsigned i = 0; i < 8; ++i) mesh.positions.emplace_back(corner_of(box, i));
+  for (const auto& [a, b, c, d] : {std::array{0U, 1U, 3U, 2U},
+                                   {4U, 5U, 7U, 6U},
+                                   {0U, 1U, 5U, 4U},
+                                   {2U, 3U, 7U, 6U},
+                                   {0U, 2U, 6U, 4U},
+                                   {1U, 3U, 7U, 5U}}) {
+    mesh.indices.emplace_back(a, b, c);
+    mesh.indices.emplace_back(a, c, d);
+  }
+  return mesh;
+}
+
+}  // namespace
+
+TEST_CASE("The cost of one leaf is known, and predicted exactly") {
+  const StudyMesh mesh = box_mesh({-1, -1, -1}, {1, 1, 1});
+  const Aabb bounds = bounds_of(mesh.triangles());
+  const StudyArea area{"plane", StudyGroup::plane_axis,
+                       make_plane_area({0, 5, 0}, {0, -1, 0}, {4, 4}, 10)};
+  StudySite site = make_site(mesh, bounds, area, 20'000, 1);
+  REQUIRE(site.subset.size() == 12);
+  BinaryTree leaf;
+  leaf.nodes.push_back({bounds, 0, 12});
+  for (std::uint32_t i = 0; i < 12; ++i) leaf.order.push_back(i);
+  const BuildConfig config;
+  for (const Tally& tally : {count_all(site.on(leaf, config), site.rays),
+                             count_closest(site.on(leaf, config), site.rays)}) {
+    CHECK(tally.rays == 20'000);
+    CHECK(tally.mean() == Approx(3 * double{triangle_cost}));
+    // A quarter of the rays meet it, but for five standard deviations.
+    CHECK(std::abs(static_cast<double>(tally.met) / 20'000 - 0.25) < 5 * std::sqrt(0.1875 / 2e4));
+  }
+  CHECK(count_closest(site.on(leaf, config), site.rays).hits ==
+        count_all(site.on(leaf, config), site.rays).met);
+}
+
+TEST_CASE("PAH predicts what rays cost, within four standard errors") {
+  const StudyMesh box = box_mesh({-1, -0.5F, -2}, {1.5F, 1, 1});
+  for (const StudyMesh& mesh :
+       {box, mesh_of(test::random_soup(500, 0.2F, Vec3{0}, 3)), mesh_of(test::grid(12, 3.0F, 6))}) {
+    CAPTURE(mesh.name);
+    const Aabb bounds = bounds_of(mesh.triangles());
+    for (const StudyArea& area : study_areas(bounds, false)) {
+      CAPTURE(area.name);
+      StudyResults results;
+      study_prediction(make_site(mesh, bounds, area, 20'000, 5), results);
+      for (const PredictionRow& row : results.predictions) {
+        CAPTURE(row.measured, row.pah, row.standard_error);
+        // Areas are rounded to float before they are summed.
+        CHECK(std::abs(row.pah - row.measured) < 4 * row.standard_error + 1e-4 * row.measured);
+        CHECK(row.closest <= row.measured * (1 + 1e-4));
+        if (!is_point(area.group)) CHECK(row.pah_plane == row.pah);
+      }
+    }
+  }
+}
+
+TEST_CASE("Rays are uniform in the measure of their area") {
+  const DVec2 fov(2.2, 1.4);
+  for (const PointMeasure measure : {PointMeasure::solid_angle, PointMeasure::plane}) {
+    const InfluenceArea area = make_point_area({0, 0, 0}, {1, 2, 3}, fov, 0, 10, measure);
+    const auto rays = draw_rays(area, 20'000, 3);
+    const Aabb box{{1, 2, 2}, {2, 2.5F, 4}};
+    const StudyMesh mesh = box_mesh(box.min, box.max);
+    BinaryTree leaf;
+    leaf.nodes.push_back({box, 0, 12});
+    const StudyTree tree{leaf, mesh.triangles(), {}, box, 4};
+    const double p = hit_probability(area, box);
+    REQUIRE(p > 0.02);
+    const double share = static_cast<double>(count_all(tree, rays).met) / 20'000;
+    CHECK(std::abs(share - p) < 4 * std::sqrt(p * (1 - p) / 20'000));
+  }
+}
+
+TEST_CASE("The study's searches find what the renderer finds") {
+  const StudyMesh mesh = mesh_of(test::random_soup(2000, 0.1F, Vec3{0}, 3));
+  const Aabb bounds = bounds_of(mesh.triangles());
+  for (const StudyArea& area : study_areas(bounds, false)) {
+    CAPTURE(area.name);
+    const StudySite site = make_site(mesh, bounds, area, 2'000, 7);
+    const LocalConfig config;
+    const BuiltBvh built = build_local(site, config);
+    std::vector<Ray> rays;
+    for (const BundleRay& ray : site.rays) rays.push_back(ray_of(ray));
+    std::vector<Hit> hits(rays.size());
+    make_brute_force(mesh.triangles())->closest_hit(rays, hits, nullptr);
+    std::uint64_t expected = 0;
+    for (const Hit& hit : hits) expected += hit.valid() ? 1 : 0;
+    CHECK(count_closest(site.on(built.tree, config.build), site.rays).hits == expected);
+    CHECK(kernel_cost(built.bvh, bounds, site.rays, 4) > 0);
+  }
+}

@@ -1,0 +1,117 @@
+#include "report/study.hpp"
+
+#include <tbb/global_control.h>
+
+#include <algorithm>
+#include <sstream>
+
+#include "catch.hpp"
+#include "support/soups.hpp"
+
+using namespace pah;
+
+namespace {
+
+StudyResults small_study(std::uint64_t seed) {
+  std::vector<StudyMesh> meshes;
+  for (const test::Soup& soup : {test::random_soup(300, 0.2F, Vec3{0}, 3), test::grid(10, 2.0F, 6)})
+    meshes.push_back({soup.name, soup.positions, soup.indices});
+  meshes.front().name = "a \"soup\", with a comma";
+  StudyConfig config;
+  config.quick = true;
+  config.rays = 500;
+  config.seed = seed;
+  return run_study(meshes, config);
+}
+
+// Of a line without quotes.
+std::size_t columns(const std::string& line) {
+  return 1 + static_cast<std::size_t>(std::count(line.begin(), line.end(), ','));
+}
+
+void check_table(const std::string& csv, const std::string& first_line, std::size_t rows) {
+  std::istringstream lines(csv);
+  std::string line;
+  std::getline(lines, line);
+  CHECK(line == first_line);
+  std::size_t found = 0;
+  std::size_t wrong = 0;
+  while (std::getline(lines, line)) {
+    ++found;
+    // Quoted cells go, commas and all.
+    std::string plain;
+    bool quoted = false;
+    for (const char c : line) {
+      if (c == '"') quoted = !quoted;
+      if (!quoted) plain += c;
+    }
+    wrong += columns(plain) != columns(first_line) ? 1 : 0;
+    wrong += plain.find("nan") != std::string::npos ? 1 : 0;
+  }
+  CHECK(wrong == 0);
+  CHECK(found == rows);
+}
+
+}  // namespace
+
+TEST_CASE("The study's tables have their columns, a row for each tree") {
+  const StudyResults results = small_study(1);
+  CHECK(results.skipped_areas == 0);
+  const std::size_t areas = 2 * 6;
+  const std::string tree = "mesh,area,group,triangles,heuristic,split,";
+  check_table(prediction_csv(results),
+              tree + "measured,standard_error,closest_hit,pah,pah_plane_measure,pah_unclipped,sah",
+              2 * areas);
+  check_table(cost_csv(results),
+              tree + "cost,kernel_cost,over_sah_longest,over_sah_best,hit_share,break_even_share",
+              6 * areas);
+  check_table(build_csv(results), tree + "build_cpu_seconds", 6 * areas);
+  check_table(sweep_csv(results), tree + "parameter,value,cost,over_default", 2 * (2 * 11));
+  CHECK(cost_csv(results).find("\"a \"\"soup\"\", with a comma\",") != std::string::npos);
+}
+
+TEST_CASE("Relative costs are relative to what they say") {
+  const StudyResults results = small_study(1);
+  for (std::size_t i = 0; i < results.costs.size(); i += 6) {
+    CHECK(results.costs[i].over_longest == 1);
+    CHECK(results.costs[i].tree.split == LocalSplit::longest);
+    CHECK(results.costs[i + 1].over_best == 1);
+    CHECK(results.costs[i + 1].tree.split == LocalSplit::best);
+    for (std::size_t k = i; k < i + 6; ++k) CHECK(results.costs[k].break_even > 0);
+  }
+  for (const SweepRow& row : results.sweeps) {
+    if (row.parameter == "bins" && row.value == BuildConfig{}.bins) CHECK(row.over_default == 1);
+    if (row.parameter == "max_leaf" && row.value == BuildConfig{}.max_leaf)
+      CHECK(row.over_default == 1);
+    if (row.parameter == "facing_threshold" && row.value == LocalConfig{}.facing_threshold)
+      CHECK(row.over_default == 1);
+  }
+}
+
+TEST_CASE("The study depends on its seed, not on the threads") {
+  const StudyResults results = small_study(1);
+  const auto tables = [](const StudyResults& r) {
+    return prediction_csv(r) + cost_csv(r) + sweep_csv(r);
+  };
+  {
+    const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
+    CHECK(tables(small_study(1)) == tables(results));
+  }
+  CHECK(tables(small_study(2)) != tables(results));
+}
+
+TEST_CASE("The report has every section, and says when there are no plots") {
+  const StudyResults results = small_study(1);
+  const std::string text = study_markdown(results, false);
+  for (const char* section : {"## Findings", "## Prediction", "## Cost of the trees",
+                              "## Break-even", "## Building", "## Parameters"})
+    CHECK(text.find(section) != std::string::npos);
+  CHECK(text.find("No plots") != std::string::npos);
+  CHECK(study_markdown(results, true).find("(cost.svg)") != std::string::npos);
+  CHECK(text.find("nan") == std::string::npos);
+}
+
+TEST_CASE("A study of nothing is a report without tables") {
+  const StudyResults none = run_study({}, {});
+  CHECK(study_markdown(none, false).find("## ") == std::string::npos);
+}
