@@ -10,7 +10,8 @@ namespace {
 // The sweep needs a build for each value: done where the heuristics differ most.
 bool is_swept(const StudyArea& area, bool quick) {
   return area.name == "plane oblique" ||
-         (!quick && (area.name == "plane y" || area.name == "point near, oblique"));
+         (!quick && (area.name == "plane y" || area.name == "plane 45" ||
+                     area.name == "point near, oblique"));
 }
 
 }  // namespace

@@ -64,13 +64,14 @@ struct PredictionRow {
   double sah = 0;
 };
 
-// What searches for the nearest hit cost.
+// What rays cost in the trees of one area.
 struct CostRow {
   StudyCase tree;
-  double cost = 0;           // of a ray that meets the root, in the binary tree as it was built
-  double kernel_cost = 0;    // of any ray, in the renderer's tree, whose nodes are eight wide
-  double over_longest = 0;   // cost / that of SAH and the longest axis
-  double over_best = 0;      // cost / that of SAH and the best axis
+  // Of a ray that meets the root, in the binary tree as it was built.
+  double closest = 0;  // a search for the nearest hit
+  double all = 0;      // every node that the ray meets within the region
+  // Of any ray, in the renderer's tree, whose nodes are eight wide.
+  double kernel = 0;
   double hit_share = 0;      // of all rays of the bundle
   double break_even = 0;     // the share that must hit lest the global BVH alone be cheaper
   double build_seconds = 0;  // CPU time

@@ -1,5 +1,5 @@
-// Experiments 2 and 4: the trees of both heuristics and all choices of axes, compared by what the
-// nearest hits of a bundle's rays cost, and by the share of rays that must hit in the area: a ray
+// Experiments 2 and 4: the trees of both heuristics and all choices of axes, compared by what a
+// bundle's rays cost, and by the share of rays that must hit in the area: a ray
 // costs local + (1 - share) * global instead of global.
 #include <ctime>
 
@@ -13,8 +13,6 @@ double cpu_seconds() {
   return static_cast<double>(std::clock()) / static_cast<double>(CLOCKS_PER_SEC);
 }
 
-double ratio(double a, double b) { return b > 0 ? a / b : 0; }
-
 }  // namespace
 
 void study_cost(const StudySite& site, const BuiltBvh& global,
@@ -22,8 +20,6 @@ void study_cost(const StudySite& site, const BuiltBvh& global,
   const StudyTree global_tree{global.tree, site.mesh.triangles(), all_triangles, site.bounds,
                               BuildConfig{}.side_by_side};
   const double global_cost = count_closest(global_tree, site.rays, false).mean_of_all();
-  double longest = 0;
-  double best = 0;
   for (const LocalHeuristic heuristic :
        {LocalHeuristic::surface_area, LocalHeuristic::projected_area}) {
     for (const LocalSplit split : {LocalSplit::longest, LocalSplit::best, LocalSplit::facing}) {
@@ -36,19 +32,13 @@ void study_cost(const StudySite& site, const BuiltBvh& global,
       row.build_seconds = cpu_seconds() - start;
       row.tree = site.named(config);
       const Tally tally = count_closest(site.on(built.tree, config.build), site.rays);
-      row.cost = tally.mean();
-      row.kernel_cost = kernel_cost(built.bvh, site.bounds, site.rays, config.build.side_by_side);
+      row.closest = tally.mean();
+      row.all = count_all(site.on(built.tree, config.build), site.rays).mean();
+      row.kernel = kernel_cost(built.bvh, site.bounds, site.rays, config.build.side_by_side);
       row.hit_share = tally.hit_share();
-      row.break_even = ratio(tally.mean_of_all(), global_cost);
-      if (heuristic == LocalHeuristic::surface_area && split == LocalSplit::longest)
-        longest = row.cost;
-      if (heuristic == LocalHeuristic::surface_area && split == LocalSplit::best) best = row.cost;
+      row.break_even = global_cost > 0 ? tally.mean_of_all() / global_cost : 0;
       results.costs.push_back(row);
     }
-  }
-  for (auto row = results.costs.end() - 6; row != results.costs.end(); ++row) {
-    row->over_longest = ratio(row->cost, longest);
-    row->over_best = ratio(row->cost, best);
   }
 }
 

@@ -40,12 +40,10 @@ std::string prediction_csv(const StudyResults& results) {
 
 std::string cost_csv(const StudyResults& results) {
   std::string csv =
-      fmt::format("{},cost,kernel_cost,over_sah_longest,over_sah_best,hit_share,break_even_share\n",
-                  case_columns);
+      fmt::format("{},closest_hit,all_nodes,kernel,hit_share,break_even_share\n", case_columns);
   for (const CostRow& row : results.costs)
-    csv += fmt::format("{},{:.6g},{:.6g},{:.5g},{:.5g},{:.5g},{:.5g}\n", cells(row.tree), row.cost,
-                       row.kernel_cost, row.over_longest, row.over_best, row.hit_share,
-                       row.break_even);
+    csv += fmt::format("{},{:.6g},{:.6g},{:.6g},{:.5g},{:.5g}\n", cells(row.tree), row.closest,
+                       row.all, row.kernel, row.hit_share, row.break_even);
   return csv;
 }
 

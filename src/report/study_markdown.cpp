@@ -82,55 +82,51 @@ std::string predictions(const StudyResults& results) {
 }
 
 template <typename Take>
-std::string variants_row(const std::string& name, const StudyResults& results, const Take& take,
-                         double CostRow::*value) {
+std::string variants_row(const std::string& name, const std::vector<CostRow>& rows,
+                         const Take& take, double CostRow::*value) {
   std::vector<std::string> cells{cell(name)};
   for (const StudyVariant& variant : study_variants)
     cells.push_back(number(mean_of(
-        results.costs, [&](const CostRow& row) { return variant.built(row) && take(row); },
+        rows, [&](const CostRow& row) { return variant.built(row) && take(row); },
         [value](const CostRow& row) { return row.*value; })));
   return row_of(cells);
 }
 
-std::string variants_table(const StudyResults& results, double CostRow::*value) {
+std::string variants_table(const StudyResults& results, const std::vector<CostRow>& rows,
+                           double CostRow::*value) {
   std::vector<std::string> names{""};
   for (const StudyVariant& variant : study_variants) names.push_back(variant.name());
   std::string text = header(names);
-  text += variants_row("**all**", results, anything, value);
+  text += variants_row("**all**", rows, anything, value);
   for (std::size_t group = 0; group < study_groups; ++group)
-    text += variants_row(name_of(static_cast<StudyGroup>(group)), results, of_group(group), value);
+    text += variants_row(name_of(static_cast<StudyGroup>(group)), rows, of_group(group), value);
   for (const std::string& mesh : meshes_of(results))
-    text += variants_row(mesh, results, of_mesh(mesh), value);
+    text += variants_row(mesh, rows, of_mesh(mesh), value);
   return text + "\n";
 }
 
-// The same rows with a value relative to that of SAH + best axis in the same area.
-StudyResults over_sah_best(StudyResults results, double CostRow::*value) {
-  const std::vector<CostRow> rows = results.costs;
-  for (CostRow& row : results.costs) {
-    const auto base = std::ranges::find_if(rows, [&](const CostRow& other) {
-      return sah_best.built(other) && other.tree.mesh == row.tree.mesh &&
-             other.tree.area == row.tree.area;
-    });
-    row.*value = (*base).*value > 0 ? row.*value / (*base).*value : 0;
-  }
-  return results;
+std::string relative_table(const StudyResults& results, const StudyVariant& base,
+                           double CostRow::*value) {
+  return variants_table(results, relative_costs(results.costs, base, value), value);
 }
 
 std::string costs(const StudyResults& results) {
   std::string text =
       "## Cost of the trees\n\n"
       "Nearest hits of the bundle's rays within the region, with early termination, in the binary\n"
-      "tree; means of the cost relative to SAH + longest axis. Below 1 is better.\n\n";
-  text += variants_table(results, &CostRow::over_longest);
+      "tree: what a renderer pays. Means of the cost relative to SAH + longest axis; below 1 is\n"
+      "better.\n\n";
+  text += relative_table(results, sah_longest, &CostRow::closest);
   text += "Relative to SAH + best axis:\n\n";
-  text += variants_table(results, &CostRow::over_best);
-
-  const StudyResults kernels = over_sah_best(results, &CostRow::kernel_cost);
+  text += relative_table(results, sah_best, &CostRow::closest);
   text +=
-      "As the renderer's own kernels count it, in nodes that are eight children wide and blocks\n"
-      "of triangles, relative to SAH + best axis:\n\n";
-  return text + variants_table(kernels, &CostRow::kernel_cost);
+      "Every node that rays meet within the region, whatever they hit, relative to SAH + longest\n"
+      "axis. This is what heuristics minimise, and what rays cost that hit nothing:\n\n";
+  text += relative_table(results, sah_longest, &CostRow::all);
+  text +=
+      "Nearest hits as the renderer's own kernels count them, in nodes that are eight children\n"
+      "wide and blocks of triangles, relative to SAH + best axis:\n\n";
+  return text + relative_table(results, sah_best, &CostRow::kernel);
 }
 
 std::string break_even(const StudyResults& results) {
@@ -139,7 +135,7 @@ std::string break_even(const StudyResults& results) {
       "A ray that finds nothing in its local BVH may have to ask the global one as well. So local\n"
       "BVHs pay only if the share of rays that hit locally exceeds (cost of the local BVH) /\n"
       "(cost of the global BVH, SAH + best axis, for the same rays). That share:\n\n";
-  text += variants_table(results, &CostRow::break_even);
+  text += variants_table(results, results.costs, &CostRow::break_even);
   text += "The share of the bundles' rays that do hit within the region:\n\n";
   text += header({"", "hit"});
   const auto share = [&](const std::string& name, const auto& take) {
@@ -154,35 +150,42 @@ std::string break_even(const StudyResults& results) {
 }
 
 std::string builds(const StudyResults& results) {
-  const StudyResults relative = over_sah_best(results, &CostRow::build_seconds);
   return "## Building\n\n"
          "CPU seconds relative to SAH + best axis. These alone are measured, not counted.\n\n" +
-         variants_table(relative, &CostRow::build_seconds);
+         relative_table(results, sah_best, &CostRow::build_seconds);
 }
 
 std::string sweeps(const StudyResults& results) {
   std::string text =
       "## Parameters\n\n"
       "One at a time, the others at their defaults (16 bins, leaves of up to 8 triangles, facing\n"
-      "threshold 0.5): nearest-hit cost relative to the default. Bins and leaves with the best\n"
-      "axis, the threshold with SPFH.\n\n";
-  text += header({"", "SAH", "PAH"});
-  std::vector<std::pair<std::string, double>> done;
+      "threshold 0.5): nearest-hit cost relative to the default, mean over the meshes. Bins and\n"
+      "leaves with the best axis, the threshold with SPFH.\n\n";
+  std::vector<std::string> areas;
+  std::vector<std::pair<std::string, double>> settings;
   for (const SweepRow& row : results.sweeps) {
-    const std::pair<std::string, double> key{row.parameter, row.value};
-    if (std::ranges::find(done, key) != done.end()) continue;
-    done.push_back(key);
-    const auto mean = [&](LocalHeuristic heuristic) {
-      return number(mean_of(
-          results.sweeps,
-          [&](const SweepRow& other) {
-            return other.tree.heuristic == heuristic && other.parameter == row.parameter &&
-                   other.value == row.value;
-          },
-          [](const SweepRow& other) { return other.over_default; }));
-    };
-    text += row_of({fmt::format("{} {:g}", row.parameter, row.value),
-                    mean(LocalHeuristic::surface_area), mean(LocalHeuristic::projected_area)});
+    if (std::ranges::find(areas, row.tree.area) == areas.end()) areas.push_back(row.tree.area);
+    const std::pair<std::string, double> setting{row.parameter, row.value};
+    if (std::ranges::find(settings, setting) == settings.end()) settings.push_back(setting);
+  }
+  std::vector<std::string> names{""};
+  for (const std::string& area : areas)
+    for (const char* heuristic : {"SAH", "PAH"})
+      names.push_back(fmt::format("{}, {}", heuristic, area));
+  text += header(names);
+  for (const auto& [parameter, value] : settings) {
+    std::vector<std::string> cells{fmt::format("{} {:g}", parameter, value)};
+    for (const std::string& area : areas)
+      for (const LocalHeuristic heuristic :
+           {LocalHeuristic::surface_area, LocalHeuristic::projected_area})
+        cells.push_back(number(mean_of(
+            results.sweeps,
+            [&, name = parameter, setting = value](const SweepRow& row) {
+              return row.tree.heuristic == heuristic && row.tree.area == area &&
+                     row.parameter == name && row.value == setting;
+            },
+            [](const SweepRow& row) { return row.over_default; })));
+    text += row_of(cells);
   }
   return text + "\n";
 }

@@ -52,6 +52,10 @@ inline constexpr StudyVariant study_variants[] = {sah_longest, sah_best, sah_fac
 // The thesis's claims and what becomes of them, as a section of the report.
 [[nodiscard]] std::string study_findings(const StudyResults& results);
 
+// The rows with `value` divided by that of `base` in the same area.
+[[nodiscard]] std::vector<CostRow> relative_costs(const std::vector<CostRow>& rows,
+                                                  const StudyVariant& base, double CostRow::*value);
+
 // The meshes' names, in the order of the rows.
 [[nodiscard]] inline std::vector<std::string> meshes_of(const StudyResults& results) {
   std::vector<std::string> names;

@@ -63,14 +63,14 @@ std::string cost_plot(const StudyResults& results) {
   text += "set xtics rotate by -20\n$costs << EOD\ngroup";
   for (const StudyVariant& variant : study_variants) text += " " + quoted(variant.name());
   text += "\n";
+  const std::vector<CostRow> rows = relative_costs(results.costs, sah_longest, &CostRow::closest);
   for (std::size_t g = 0; g < study_groups; ++g) {
     const auto group = static_cast<StudyGroup>(g);
     text += quoted(name_of(group));
     for (const StudyVariant& variant : study_variants) {
       const double mean = mean_of(
-          results.costs,
-          [&](const CostRow& row) { return variant.built(row) && row.tree.group == group; },
-          [](const CostRow& row) { return row.over_longest; });
+          rows, [&](const CostRow& row) { return variant.built(row) && row.tree.group == group; },
+          [](const CostRow& row) { return row.closest; });
       text += std::isnan(mean) ? " ?" : fmt::format(" {:.4g}", mean);
     }
     text += "\n";

@@ -1,4 +1,7 @@
+#include <array>
 #include <cmath>
+#include <pah/accel/accelerator.hpp>
+#include <pah/influence/box_sectors.hpp>
 
 #include "catch.hpp"
 #include "report/study_areas.hpp"
@@ -16,12 +19,9 @@ StudyMesh box_mesh(const Vec3& low, const Vec3& high) {
   StudyMesh mesh{"box", {}, {}};
   const Aabb box{low, high};
   for (unsigned i = 0; i < 8; ++i) mesh.positions.emplace_back(corner_of(box, i));
-  for (const auto& [a, b, c, d] : {std::array{0U, 1U, 3U, 2U},
-                                   {4U, 5U, 7U, 6U},
-                                   {0U, 1U, 5U, 4U},
-                                   {2U, 3U, 7U, 6U},
-                                   {0U, 2U, 6U, 4U},
-                                   {1U, 3U, 7U, 5U}}) {
+  constexpr std::array<std::array<std::uint32_t, 4>, 6> faces{
+      {{0, 1, 3, 2}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 3, 7, 6}, {0, 2, 6, 4}, {1, 3, 7, 5}}};
+  for (const auto& [a, b, c, d] : faces) {
     mesh.indices.emplace_back(a, b, c);
     mesh.indices.emplace_back(a, c, d);
   }
@@ -84,7 +84,7 @@ TEST_CASE("Rays are uniform in the measure of their area") {
     leaf.nodes.push_back({box, 0, 12});
     const StudyTree tree{leaf, mesh.triangles(), {}, box, 4};
     const double p = hit_probability(area, box);
-    REQUIRE(p > 0.02);
+    REQUIRE(p > 0.01);
     const double share = static_cast<double>(count_all(tree, rays).met) / 20'000;
     CHECK(std::abs(share - p) < 4 * std::sqrt(p * (1 - p) / 20'000));
   }
