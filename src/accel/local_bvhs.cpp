@@ -10,6 +10,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <numeric>
 #include <pah/accel/local_bvhs.hpp>
@@ -54,11 +55,12 @@ struct Area {
   }
 
  private:
-  // A segment between two points of a convex set lies in it.
+  // A segment between two points of a convex set lies in it. It may end short of the eye
+  // (spawn.hpp) by more than the margin: what counts is where it leads.
   [[nodiscard]] bool ends_at_eye(const Ray& ray) const {
     const auto* point = std::get_if<PointArea>(&declared.area);
     if (point == nullptr || point->frustum.near > 0 || !(ray.t_max <= 1)) return false;
-    const DVec3 end = DVec3(ray.origin) + double{ray.t_max} * DVec3(ray.direction);
+    const DVec3 end = DVec3(ray.origin) + DVec3(ray.direction);
     return glm::all(
         glm::lessThanEqual(glm::abs(end - point->frustum.eye), DVec3(double{end_margin})));
   }
@@ -87,11 +89,23 @@ double bundle_cost(const BinaryTree& tree, const BuildConfig& config,
          double{probability.area(tree.nodes.front().box)};
 }
 
+// Threads add what a batch was; nobody reads while they do.
+struct Counters {
+  std::atomic<std::uint64_t> asked = 0, answered = 0, nodes = 0, triangles = 0;
+
+  void add(std::uint64_t rays, std::uint64_t rays_answered, const TraversalCounts& spent) {
+    asked.fetch_add(rays, std::memory_order_relaxed);
+    answered.fetch_add(rays_answered, std::memory_order_relaxed);
+    nodes.fetch_add(spent.nodes, std::memory_order_relaxed);
+    triangles.fetch_add(spent.triangles, std::memory_order_relaxed);
+  }
+};
+
 class LocalBvhsOverGlobal final : public LocalBvhs {
  public:
   LocalBvhsOverGlobal(const Triangles& triangles, const std::vector<LocalArea>& areas,
                       const LocalConfig& config)
-      : bounds_(bounds_of(triangles)) {
+      : bounds_(bounds_of(triangles)), counters_(areas.size()) {
     std::vector<std::uint32_t> all(triangles.size());
     std::iota(all.begin(), all.end(), 0U);
     const BuiltBvh global = build_bvh_and_tree(triangles, all);
@@ -108,13 +122,14 @@ class LocalBvhsOverGlobal final : public LocalBvhs {
     for_batches(rays, bounds_, [&](std::span<const PreparedRay> batch, std::size_t first) {
       const std::span<Hit> found = hits.subspan(first, batch.size());
       std::transform(batch.begin(), batch.end(), found.begin(), nothing_yet);
-      answer(rays.subspan(first, batch.size()), batch, [&](const Bvh& bvh, const Lanes& lanes) {
+      const auto trace = [&](const Bvh& bvh, const Lanes& lanes, TraversalCounts* spent) {
         std::array<Hit, batch_size> local;
         for (std::size_t k = 0; k < lanes.count; ++k) local[k] = nothing_yet(lanes.rays[k]);
-        closest_hits(bvh, lanes.span(), std::span(local.data(), lanes.count), counts);
+        closest_hits(bvh, lanes.span(), std::span(local.data(), lanes.count), spent);
         for (std::size_t k = 0; k < lanes.count; ++k) found[lanes.index[k]] = finished(local[k]);
         return [found](std::size_t i) { return found[i].valid(); };
-      });
+      };
+      answer(rays.subspan(first, batch.size()), batch, counts, trace);
     });
   }
 
@@ -123,12 +138,13 @@ class LocalBvhsOverGlobal final : public LocalBvhs {
     std::fill_n(results.begin(), rays.size(), std::uint8_t{0});
     for_batches(rays, bounds_, [&](std::span<const PreparedRay> batch, std::size_t first) {
       const std::span<std::uint8_t> found = results.subspan(first, batch.size());
-      answer(rays.subspan(first, batch.size()), batch, [&](const Bvh& bvh, const Lanes& lanes) {
+      const auto trace = [&](const Bvh& bvh, const Lanes& lanes, TraversalCounts* spent) {
         std::array<std::uint8_t, batch_size> local{};
-        pah::occluded(bvh, lanes.span(), std::span(local.data(), lanes.count), counts);
+        pah::occluded(bvh, lanes.span(), std::span(local.data(), lanes.count), spent);
         for (std::size_t k = 0; k < lanes.count; ++k) found[lanes.index[k]] = local[k];
         return [found](std::size_t i) { return found[i] != 0; };
-      });
+      };
+      answer(rays.subspan(first, batch.size()), batch, counts, trace);
     });
   }
 
@@ -140,6 +156,16 @@ class LocalBvhsOverGlobal final : public LocalBvhs {
   }
 
   [[nodiscard]] const std::vector<LocalBvhReport>& reports() const override { return reports_; }
+
+  [[nodiscard]] std::vector<LocalBvhUse> uses() const override {
+    std::vector<LocalBvhUse> uses;
+    for (const Counters& c : counters_) {
+      uses.push_back({c.asked, c.answered,
+                      double{box_cost} * static_cast<double>(c.nodes) +
+                          double{triangle_cost} * static_cast<double>(c.triangles)});
+    }
+    return uses;
+  }
 
  private:
   static constexpr std::uint32_t the_global_bvh = 0xFFFFFFFFU;
@@ -210,11 +236,11 @@ class LocalBvhsOverGlobal final : public LocalBvhs {
     return {};
   }
 
-  // Calls `trace(bvh, lanes)` for the rays of each area, then for those that are still open.
-  // `trace` returns whether ray i of the batch has hit something.
+  // Calls `trace(bvh, lanes, counts)` for the rays of each area, then for those that are still
+  // open. It returns a function that tells whether ray i of the batch has hit something.
   template <typename Trace>
   void answer(std::span<const Ray> rays, std::span<const PreparedRay> batch,
-              const Trace& trace) const {
+              TraversalCounts* counts, const Trace& trace) const {
     std::array<Assignment, batch_size> assigned;
     for (std::size_t i = 0; i < batch.size(); ++i) {
       if (rays[i].bundle != no_bundle) assigned[i] = assign(rays[i], batch[i]);
@@ -235,13 +261,20 @@ class LocalBvhsOverGlobal final : public LocalBvhs {
         lanes.rays[lanes.count - 1].t_max = std::min(batch[k].t_max, assigned[k].reach);
         done[k] = true;
       }
-      const auto hit = trace(areas_[area].bvh, lanes);
+      TraversalCounts spent;
+      const auto hit = trace(areas_[area].bvh, lanes, counts == nullptr ? nullptr : &spent);
+      const std::size_t open_before = open.count;
       for (std::size_t k = 0; k < lanes.count; ++k) {
         const std::size_t ray = lanes.index[k];
         if (assigned[ray].reach < batch[ray].t_max && !hit(ray)) open.add(batch[ray], ray);
       }
+      if (counts != nullptr) {
+        counters_[area].add(lanes.count, lanes.count - (open.count - open_before), spent);
+        counts->nodes += spent.nodes;
+        counts->triangles += spent.triangles;
+      }
     }
-    if (open.count > 0) trace(global_, open);
+    if (open.count > 0) trace(global_, open, counts);
   }
 
   Aabb bounds_;
@@ -249,6 +282,7 @@ class LocalBvhsOverGlobal final : public LocalBvhs {
   std::vector<Area> areas_;
   std::vector<std::uint32_t> order_;  // areas by bundle
   std::vector<LocalBvhReport> reports_;
+  mutable std::vector<Counters> counters_;
 };
 
 }  // namespace

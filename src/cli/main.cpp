@@ -51,9 +51,9 @@ CLI::Validator whole_number(int low, int high) { return CLI::Range(low, high).de
 
 CLI::Validator accelerator_name() {
   return {[](std::string& text) {
-            if (find_accelerator(text) != nullptr) return std::string();
+            if (is_accelerator(text)) return std::string();
             std::vector<std::string_view> names;
-            for (const AcceleratorChoice& choice : accelerators()) names.push_back(choice.name);
+            for (const AcceleratorName& choice : accelerators()) names.push_back(choice.name);
             return fmt::format("unknown accelerator {}; available are {}", text,
                                fmt::join(names, ", "));
           },
@@ -101,10 +101,10 @@ void add_render_options(CLI::App& app, RenderArguments& arguments) {
       ->check(finite_number(-std::numeric_limits<double>::infinity()))
       ->type_name("X");
   std::string accelerator_help =
-      "What answers rays. It changes the time, never the\npicture. By default the first of:";
-  for (const AcceleratorChoice& choice : accelerators())
+      "What answers rays. It changes the time, never the\npicture. By default local if the scene "
+      "declares\ninfluence areas, else bvh:";
+  for (const AcceleratorName& choice : accelerators())
     accelerator_help += fmt::format("\n{:12} {}", choice.name, choice.what);
-  arguments.accelerator = accelerators().front().name;
   app.add_option("--accel", arguments.accelerator, accelerator_help)
       ->check(accelerator_name())
       ->type_name("NAME");

@@ -131,8 +131,6 @@ void print_summary(const fs::path& file, const RenderResult& result, int samples
 ExitCode run_render(const RenderArguments& arguments) {
   const Stopwatch total;
   handle_interrupts();
-  const AcceleratorChoice* choice = find_accelerator(arguments.accelerator);
-  if (choice == nullptr) throw UsageError("unknown accelerator " + arguments.accelerator);
   const fs::path output = output_of(arguments);
   if (!arguments.check) {
     check_writable(output);
@@ -158,12 +156,12 @@ ExitCode run_render(const RenderArguments& arguments) {
   RenderReport report;
   report.seconds.load = total.seconds();
   const Stopwatch building;
-  const auto accelerator =
-      tbb::task_arena(threads).execute([&] { return choice->make(world.triangles()); });
+  const ChosenAccelerator chosen = tbb::task_arena(threads).execute(
+      [&] { return make_accelerator(arguments.accelerator, world, scene); });
   report.seconds.build = building.seconds();
 
   const SavingOnInterrupt saving;
-  const RenderResult result = render_with_progress(world, *accelerator, scene, arguments);
+  const RenderResult result = render_with_progress(world, *chosen.accelerator, scene, arguments);
   const bool interrupted = stop_requested() && !result.complete;
   if (interrupted && !any_samples(result.film)) {
     fmt::print(stderr, "interrupted before there was anything to save\n");
@@ -180,12 +178,13 @@ ExitCode run_render(const RenderArguments& arguments) {
     report.samples = result.samples;
     report.threads = threads;
     report.seed = scene.render.seed;
-    report.accelerator = choice->name;
+    report.accelerator = chosen.name;
     report.triangles = world.triangles().size();
     report.counts = result.counts;
     report.scene_bytes = world.bytes();
     report.film_bytes = result.film.pixels.size() * sizeof(FilmPixel);
-    report.accelerator_bytes = accelerator->memory();
+    report.accelerator_bytes = chosen.accelerator->memory();
+    report.influence_areas = report_areas(chosen);
     report.error = estimate_error(result.film);
     report.seconds.render = result.seconds;
     report.seconds.total = total.seconds();

@@ -20,9 +20,9 @@ struct RenderArguments {
   std::optional<PixelRect> crop;
   std::optional<std::uint64_t> seed;
   std::optional<double> exposure;
-  int threads = 0;        // 0: all
-  double time_limit = 0;  // seconds; 0: none
-  std::string accelerator;
+  int threads = 0;                     // 0: all
+  double time_limit = 0;               // seconds; 0: none
+  std::string accelerator;             // empty: by the scene
   std::vector<std::string> overrides;  // key.path=value
   std::filesystem::path stats;         // empty: none
   bool quiet = false;

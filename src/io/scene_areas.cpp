@@ -10,9 +10,11 @@ using Kind = YamlNode::Kind;
 enum class Bundle { point, parallel, neither };
 
 Bundle bundle_of(const Scene& scene, std::optional<LightId> light) {
-  if (!light)
-    return std::holds_alternative<PerspectiveCamera>(scene.camera) ? Bundle::point
-                                                                   : Bundle::parallel;
+  if (!light) {
+    const auto* camera = std::get_if<PerspectiveCamera>(&scene.camera);
+    if (camera == nullptr) return Bundle::parallel;
+    return camera->aperture_radius == 0 ? Bundle::point : Bundle::neither;
+  }
   const auto& model = scene.lights[*light].model;
   if (std::holds_alternative<PointLight>(model) || std::holds_alternative<SpotLight>(model))
     return Bundle::point;
@@ -32,7 +34,7 @@ bool read_light_name(SceneReading& reading, MapReader& map, std::string& name, B
   map.error("light", "the rays of '" + name + "' " +
                          (wanted == Bundle::point
                               ? "do not meet in a point: a point area takes a point or spot light, "
-                                "or a perspective camera"
+                                "or a perspective camera without an aperture"
                               : "are not parallel: a plane area takes a directional light or an "
                                 "orthographic camera"));
   return false;

@@ -45,7 +45,7 @@ Ray CameraRays::central(int x, int y) const {
   Ray ray;
   ray.origin = perspective_ ? position_ : position_ + offset;
   ray.direction = perspective_ ? glm::normalize(forward_ + offset) : forward_;
-  if (perspective_ && aperture_radius_ == 0) ray.bundle = camera_bundle;
+  if (aperture_radius_ == 0) ray.bundle = camera_bundle;
   return ray;
 }
 
@@ -61,6 +61,7 @@ CameraRay CameraRays::generate(int x, int y, Sampler& sampler) const {
   if (!perspective_) {
     out.ray.origin = position_ + across;
     out.ray.direction = forward_;
+    out.ray.bundle = camera_bundle;
     out.cone_width = pixel;
     return out;
   }

@@ -30,6 +30,27 @@ Json traversal_json(const RenderCounts& counts) {
           {"triangles_per_ray", per_ray(&TraversalCounts::triangles)}};
 }
 
+template <typename Number>
+Json number_or_null(const std::optional<Number>& number) {
+  return number ? Json(*number) : Json();
+}
+
+Json areas_json(const std::vector<AreaReport>& areas) {
+  Json json = Json::array();
+  for (const AreaReport& area : areas)
+    json.push_back({{"name", area.name},
+                    {"type", area.type},
+                    {"light", area.light},
+                    {"triangles", area.triangles},
+                    {"built", area.built},
+                    {"reason", area.reason},
+                    {"predicted_cost", number_or_null(area.predicted_cost)},
+                    {"measured_cost", number_or_null(area.measured_cost)},
+                    {"global_cost", number_or_null(area.global_cost)},
+                    {"rays", number_or_null(area.rays)}});
+  return json;
+}
+
 }  // namespace
 
 std::uint64_t peak_memory_bytes() {
@@ -61,7 +82,7 @@ std::string stats_json(const RenderReport& report) {
         {"total", report.seconds.total}}},
       {"rays", by_ray_kind([&](std::size_t kind) { return report.counts.rays[kind]; })},
       {"traversal", traversal_json(report.counts)},
-      {"influence_areas", Json::array()},
+      {"influence_areas", areas_json(report.influence_areas)},
       {"memory_bytes",
        {{"scene", report.scene_bytes},
         {"global_bvh", structures.global_bvh},

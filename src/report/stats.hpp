@@ -3,11 +3,24 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <pah/accel/accelerator.hpp>
 #include <pah/render/render.hpp>
 #include <string>
+#include <vector>
 
 namespace pah {
+
+// An influence area, and what became of it.
+struct AreaReport {
+  std::string name, type, light;
+  std::uint64_t triangles = 0;  // in its BVH
+  bool built = false;
+  std::string reason;  // why it was built, or was not
+  // Per ray; null in the JSON where nothing was built, or measured.
+  std::optional<double> predicted_cost, measured_cost, global_cost;
+  std::optional<std::uint64_t> rays;  // answered by the area alone
+};
 
 struct RenderReport {
   std::string version;
@@ -24,6 +37,7 @@ struct RenderReport {
   RenderCounts counts;
   std::uint64_t scene_bytes = 0, film_bytes = 0;
   AcceleratorMemory accelerator_bytes;
+  std::vector<AreaReport> influence_areas;
   ErrorEstimate error;
 };
 

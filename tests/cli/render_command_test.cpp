@@ -216,9 +216,65 @@ TEST_CASE("--threads and --accel do as they say, and never change a pixel") {
     return stats["traversal"]["triangles_per_ray"]["camera"].get<double>();
   };
   CHECK(render_to("reference.exr", "brute_force", "1") == 14);
-  for (const char* threads : {"1", "2", "7"}) {
-    CAPTURE(threads);
-    CHECK(render_to("out.exr", "bvh", threads) < 14);
-    CHECK(identical("out.exr", "reference.exr"));
+  for (const char* accelerator : {"bvh", "local"})
+    for (const char* threads : {"1", "2", "7"}) {
+      CAPTURE(accelerator, threads);
+      CHECK(render_to("out.exr", accelerator, threads) < 14);
+      CHECK(identical("out.exr", "reference.exr"));
+    }
+}
+
+TEST_CASE("a declared influence area is built and measured; --accel bvh and off leave it out") {
+  const CurrentTemporaryFolder folder;
+  write_file("scene.yaml", std::string(small_scene) +
+                               "influence_areas: [auto, {type: point, light: bulb, fov: [120, 120],"
+                               " far: 4}]\n"
+                               "acceleration: {heuristic: pah, split_axis: facing}\n");
+  const auto stats_of = [](const Words& more) {
+    Words words{"scene.yaml", "-o", "out.exr", "--stats", "stats.json"};
+    words.insert(words.end(), more.begin(), more.end());
+    render(words);
+    return read_json("stats.json");
+  };
+  const json local = stats_of({});
+  fs::rename("out.exr", "local.exr");
+  CHECK(local["accelerator"] == "local");
+  CHECK(local["memory_bytes"]["local_bvhs"] > 0);
+  CHECK(local["memory_bytes"]["top_level"] > 0);
+  const json& areas = local["influence_areas"];
+  REQUIRE(areas.size() == 7);  // that one, all sides of the bulb but the upper, and the camera's
+  const json& built = areas[0];
+  CHECK(built["name"] == "bulb");
+  CHECK(built["type"] == "point");
+  CHECK(built["light"] == "bulb");
+  CHECK(built["built"] == true);
+  CHECK(built["reason"] == "declared");
+  CHECK(built["triangles"] == 14);
+  CHECK(built["rays"] > 0);
+  CHECK(built["rays"] <= local["rays"]["shadow"]);
+  for (const char* cost : {"predicted_cost", "measured_cost", "global_cost"}) {
+    CAPTURE(cost);
+    CHECK(built[cost] > 0);
   }
+  const json& left_out = areas[1];
+  CHECK(left_out["name"] == "bulb -x");
+  CHECK(left_out["built"] == false);
+  CHECK(left_out["reason"].get<std::string>().find("not expected") != std::string::npos);
+  for (const char* key : {"predicted_cost", "measured_cost", "global_cost", "rays"}) {
+    CAPTURE(key);
+    REQUIRE(left_out.contains(key));
+    CHECK(left_out[key].is_null());
+  }
+
+  const json bvh = stats_of({"--accel", "bvh"});
+  CHECK(bvh["accelerator"] == "bvh");
+  CHECK(bvh["memory_bytes"]["local_bvhs"] == 0);
+  REQUIRE(bvh["influence_areas"].size() == 7);
+  CHECK(bvh["influence_areas"][0]["built"] == false);
+  CHECK(identical("out.exr", "local.exr"));
+
+  const json off = stats_of({"-D", "influence_areas=off"});
+  CHECK(off["accelerator"] == "bvh");
+  CHECK(off["influence_areas"].empty());
+  CHECK(identical("out.exr", "local.exr"));
 }

@@ -52,7 +52,7 @@ TEST_CASE("wrong usage exits with 2 and says what is wrong") {
   check_failure({"scene.yaml", "-o"}, 2, "--output");
   check_failure({"scene.yaml", "-o", "out.xyz"}, 2, ".exr");
   check_failure({"scene.yaml", "-o", "out"}, 2, ".exr");
-  check_failure({"scene.yaml", "--accel", "magic"}, 2, "bvh, brute_force");
+  check_failure({"scene.yaml", "--accel", "magic"}, 2, "bvh, local, brute_force");
   check_failure({"scene.yaml", "--spp", "0"}, 2, "--spp");
   check_failure({"scene.yaml", "--spp", "many"}, 2, "--spp");
   check_failure({"scene.yaml", "--width", "65537"}, 2, "--width");

@@ -412,7 +412,11 @@ TEST_CASE("bad lights and influence areas") {
       {"lights: [{name: sun, type: directional}]\n"
        "influence_areas: [{type: point, light: sun}]",
        "scene.yaml:2:40: error: the rays of 'sun' do not meet in a point: a point area takes a "
-       "point or spot light, or a perspective camera"},
+       "point or spot light, or a perspective camera without an aperture"},
+      {"camera: {type: perspective, aperture_radius: 0.1}\n"
+       "influence_areas: [{type: point, light: camera}]",
+       "scene.yaml:2:40: error: the rays of 'camera' do not meet in a point: a point area takes a "
+       "point or spot light, or a perspective camera without an aperture"},
       {"influence_areas: [{type: plane, light: camera}]",
        "scene.yaml:1:40: error: the rays of 'camera' are not parallel: a plane area takes a "
        "directional light or an orthographic camera"},

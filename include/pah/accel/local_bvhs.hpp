@@ -46,10 +46,20 @@ struct LocalBvhReport {
   double global_cost = 0;
 };
 
+// What an area has done for rays that were traced with counts.
+struct LocalBvhUse {
+  std::uint64_t asked = 0;     // rays traced through its BVH
+  std::uint64_t answered = 0;  // those of them that the global BVH was not asked as well
+  // Of the rays asked: box_cost per node visited, of up to eight children, and triangle_cost per
+  // triangle tested. To be compared with other measured costs; predicted ones are of binary trees.
+  double cost = 0;
+};
+
 class LocalBvhs : public Accelerator {
  public:
-  // In the order of the areas.
+  // Both in the order of the areas.
   [[nodiscard]] virtual const std::vector<LocalBvhReport>& reports() const = 0;
+  [[nodiscard]] virtual std::vector<LocalBvhUse> uses() const = 0;
 };
 
 // Rays of no area's bundle, and those that an area cannot answer for certain, go to the global BVH.

@@ -63,17 +63,18 @@ struct InfluenceSettings {
   std::vector<AreaDeclaration> declared;
 };
 
-enum class Heuristic { automatic, sah, pah };
-enum class SplitAxis { automatic, longest, facing };
+enum class Heuristic { automatic, sah, pah };         // of local BVHs; sah if automatic
+enum class SplitAxis { automatic, longest, facing };  // the cheapest of all three if automatic
+// Rays carry their bundle and find its areas by it: all three are a list per bundle so far.
 enum class TopLevelKind { automatic, list, octree };
 
 struct AccelerationSettings {
   Heuristic heuristic = Heuristic::automatic;
   SplitAxis split_axis = SplitAxis::automatic;
   TopLevelKind top_level = TopLevelKind::automatic;
-  std::optional<int> octree_depth;  // in [1, 10]
-  int bins = 16;                    // in [2, 64]
-  int max_leaf_triangles = 8;       // in [1, 64]
+  std::optional<int> octree_depth;  // in [1, 10]; without effect so far
+  int bins = 16;                    // in [2, 64]; of local BVHs, as the next
+  int max_leaf_triangles = 8;       // in [1, 64]; leaves hold 32 at most, whatever it says
 };
 
 }  // namespace pah

@@ -1,0 +1,252 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <pah/geometry/basis.hpp>
+#include <pah/scene/areas.hpp>
+#include <stdexcept>
+#include <unordered_map>
+
+#include "geometry/rounding.hpp"
+
+namespace pah {
+namespace {
+
+constexpr const char* camera_name = "camera";
+
+// Positions are rounded to float before rays are aimed at them or leave them.
+DVec3 as_rays_see_it(const DVec3& position) { return DVec3{Vec3(position)}; }
+
+// Where rays of a bundle start and what they may hit: the box of all triangles, widened.
+struct Reachable {
+  Aabb box;
+  double margin = 0;
+
+  explicit Reachable(const Aabb& bounds) : box(bounds) {
+    if (bounds.empty()) return;
+    const Vec3 largest = glm::max(glm::abs(bounds.min), glm::abs(bounds.max));
+    // A ray starts within 15 roundings of a surface (spawn.hpp), and the test of a box is padded by
+    // 13 (ray_box.hpp), of sizes of up to twice the largest coordinate.
+    const float widening =
+        rounding_bound(2 * (15 + 13)) * std::max(largest.x, std::max(largest.y, largest.z));
+    box.min -= widening;
+    box.max += widening;
+    margin = widening;
+  }
+
+  // Of the box along a direction of unit length, as seen from `origin`.
+  [[nodiscard]] DVec2 range(const DVec3& origin, const DVec3& direction) const {
+    const DVec3 half = 0.5 * (DVec3(box.max) - DVec3(box.min));
+    const double center = glm::dot(DVec3(box.min) + half - origin, direction);
+    const double radius = glm::dot(half, glm::abs(direction)) + margin;
+    return {center - radius, center + radius};
+  }
+};
+
+class Derivation {
+ public:
+  Derivation(const World& world, const FilmSettings& film, std::vector<SceneArea>& areas)
+      : world_(world), film_(film), reachable_(world.bounds), areas_(areas) {}
+
+  void derive_all() {
+    if (world_.bounds.empty()) return;
+    for (std::size_t i = 0; i < world_.lights.size(); ++i) {
+      light_ = world_.lights[i].name;
+      bundle_ = static_cast<std::uint32_t>(i);
+      std::visit([this](const auto& model) { derive(model); }, world_.lights[i].model);
+    }
+    light_ = camera_name;
+    bundle_ = camera_bundle;
+    std::visit([this](const auto& camera) { derive(camera); }, world_.camera);
+  }
+
+ private:
+  void derive(const PointLight& light) { add_sides(light.position); }
+
+  void derive(const SpotLight& light) {
+    // Near 90 degrees a single frustum would be all but the whole half-space, and beyond it none
+    // is.
+    constexpr double widest = 80;
+    if (light.angle >= widest) return add_sides(light.position);
+    add_frustum("", as_rays_see_it(light.position), orthonormal_basis(light.direction),
+                DVec2(std::tan(glm::radians(light.angle))), PointMeasure::solid_angle);
+  }
+
+  void derive(const DirectionalLight& light) {
+    if (light.angle > 0) return;
+    const DMat3 axes = orthonormal_basis(light.direction);
+    DVec3 center(0);
+    DVec3 half_size;
+    for (int k = 0; k < 3; ++k) {
+      const DVec2 range = reachable_.range(DVec3(0), axes[k]);
+      center += 0.5 * (range.x + range.y) * axes[k];
+      half_size[k] = 0.5 * (range.y - range.x);
+    }
+    add("", PlaneArea{{center, axes, half_size}});
+  }
+
+  void derive(const AreaLight& /*light*/) {}
+  void derive(const EnvironmentLight& /*light*/) {}
+
+  void derive(const PerspectiveCamera& camera) {
+    if (camera.aperture_radius > 0) return;
+    const DVec2 half = half_picture(std::tan(glm::radians(camera.fov) / 2));
+    // Directions are sums of three vectors, of 6 roundings each at most.
+    const DVec2 widening = rounding_bound(18) * (1 + half.x + half.y) * (1.0 + half);
+    add_frustum("", as_rays_see_it(camera.position), frame_of(camera), half + widening,
+                PointMeasure::plane);
+  }
+
+  void derive(const OrthographicCamera& camera) {
+    const DMat3 axes = frame_of(camera);
+    const DVec3 position = as_rays_see_it(camera.position);
+    const double depth = reachable_.range(position, axes[2]).y;
+    if (!(depth > 0)) return;
+    const DVec2 half = half_picture(camera.height / 2);
+    // Origins are sums of three vectors, as above.
+    const double largest = glm::length(position) + half.x + half.y;
+    const double widening = rounding_bound(18) * largest;
+    add("",
+        PlaneArea{{position + 0.5 * depth * axes[2], axes, DVec3(half, 0.5 * depth) + widening}});
+  }
+
+  // Right, up and forward, right-handed: the picture's x runs to the left.
+  template <typename AnyCamera>
+  static DMat3 frame_of(const AnyCamera& camera) {
+    const DVec3 forward = glm::normalize(camera.look_at - camera.position);
+    const DVec3 left = glm::normalize(glm::cross(camera.up, forward));
+    return {left, glm::cross(forward, left), forward};
+  }
+
+  // Half the picture's size with what filters reach beyond it.
+  [[nodiscard]] DVec2 half_picture(double half_height) const {
+    const double beyond = 2 * std::max(0.0, film_.filter_radius - 0.5);
+    return half_height / film_.height * DVec2(film_.width + beyond, film_.height + beyond);
+  }
+
+  void add_sides(const DVec3& position) {
+    constexpr std::array<const char*, 6> sides{"-x", "+x", "-y", "+y", "-z", "+z"};
+    for (std::size_t i = 0; i < sides.size(); ++i) {
+      DVec3 forward(0);
+      forward[static_cast<int>(i / 2)] = i % 2 == 0 ? -1 : 1;
+      add_frustum(sides[i], as_rays_see_it(position), orthonormal_basis(forward), DVec2(1),
+                  PointMeasure::solid_angle);
+    }
+  }
+
+  // Reaching to the end of the scene; none if the scene lies elsewhere.
+  void add_frustum(const char* side, const DVec3& eye, const DMat3& axes, const DVec2& tan_half,
+                   PointMeasure measure) {
+    const double far = reachable_.range(eye, axes[2]).y;
+    if (!(far > 0)) return;
+    const Frustum frustum{eye, axes, tan_half, 0, far};
+    if (overlaps(Region(frustum), reachable_.box)) add(side, PointArea{frustum, measure});
+  }
+
+  void add(const std::string& side, const InfluenceArea& area) {
+    areas_.push_back({side.empty() ? light_ : light_ + " " + side, light_, bundle_, area, false});
+  }
+
+  const World& world_;
+  const FilmSettings& film_;
+  Reachable reachable_;
+  std::vector<SceneArea>& areas_;
+  std::string light_;
+  std::uint32_t bundle_ = no_bundle;
+};
+
+// The bundle of a light that a declaration names.
+std::uint32_t bundle_of(const World& world, const std::string& light) {
+  if (light == camera_name) return camera_bundle;
+  const auto found = std::ranges::find(world.lights, light, &Light::name);
+  if (found == world.lights.end())
+    throw std::invalid_argument("an influence area names the light '" + light +
+                                "', which there is not");
+  return static_cast<std::uint32_t>(found - world.lights.begin());
+}
+
+// Where the rays of a bundle meet, or nothing.
+std::optional<DVec3> meeting_point(const World& world, std::uint32_t bundle) {
+  if (bundle == camera_bundle) {
+    const auto* camera = std::get_if<PerspectiveCamera>(&world.camera);
+    if (camera != nullptr && camera->aperture_radius == 0) return camera->position;
+    return {};
+  }
+  const auto& model = world.lights[bundle].model;
+  if (const auto* point = std::get_if<PointLight>(&model)) return point->position;
+  if (const auto* spot = std::get_if<SpotLight>(&model)) return spot->position;
+  return {};
+}
+
+bool is_parallel(const World& world, std::uint32_t bundle) {
+  return bundle == camera_bundle
+             ? std::holds_alternative<OrthographicCamera>(world.camera)
+             : std::holds_alternative<DirectionalLight>(world.lights[bundle].model);
+}
+
+InfluenceArea area_of(const World& world, std::uint32_t bundle,
+                      const PlaneAreaDeclaration& declared) {
+  if (!is_parallel(world, bundle))
+    throw std::invalid_argument("a plane area is declared for '" + declared.light +
+                                "', whose rays are not parallel");
+  return make_plane_area(declared.position - world.origin, declared.direction, declared.size,
+                         declared.depth);
+}
+
+InfluenceArea area_of(const World& world, std::uint32_t bundle,
+                      const PointAreaDeclaration& declared) {
+  const auto eye = meeting_point(world, bundle);
+  if (!eye)
+    throw std::invalid_argument("a point area is declared for '" + declared.light +
+                                "', whose rays do not meet in a point");
+  return make_point_area(as_rays_see_it(*eye), declared.forward, glm::radians(declared.fov),
+                         declared.near, declared.far,
+                         bundle == camera_bundle ? PointMeasure::plane : PointMeasure::solid_angle);
+}
+
+SceneArea declared_area(const World& world, const AreaDeclaration& declaration) {
+  return std::visit(
+      [&](const auto& declared) {
+        const std::uint32_t bundle = bundle_of(world, declared.light);
+        return SceneArea{declared.light, declared.light, bundle, area_of(world, bundle, declared),
+                         true};
+      },
+      declaration);
+}
+
+// "lamp", "lamp 2", "lamp 3".
+void number_names(std::vector<SceneArea>& areas) {
+  std::unordered_map<std::string, int> seen;
+  for (SceneArea& area : areas) {
+    const int count = ++seen[area.name];
+    if (count > 1) area.name += " " + std::to_string(count);
+  }
+}
+
+}  // namespace
+
+std::string_view type_name(const InfluenceArea& area) {
+  return std::holds_alternative<PlaneArea>(area) ? "plane" : "point";
+}
+
+std::vector<SceneArea> areas_of(const World& world, const InfluenceSettings& settings,
+                                const FilmSettings& film) {
+  std::vector<SceneArea> areas;
+  for (const AreaDeclaration& declaration : settings.declared)
+    areas.push_back(declared_area(world, declaration));
+  if (settings.derive) Derivation(world, film, areas).derive_all();
+  number_names(areas);
+  return areas;
+}
+
+// Derived areas hold all that their rays may meet, mostly the whole scene. A BVH in world space
+// over that puts as many nodes in a ray's way as the global one, whatever it is built by, and costs
+// a build. (A declared area can be tight about what matters.) A structure in the bundle's own
+// coordinates may change that, and then this is the place to say so.
+AreaChoice choose(const SceneArea& area) {
+  if (area.declared) return {true, "declared"};
+  return {false,
+          "a local BVH in world space is not expected to beat the global one; declare the area to "
+          "build it"};
+}
+
+}  // namespace pah

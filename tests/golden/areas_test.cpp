@@ -1,0 +1,98 @@
+// Influence areas declared by hand, well or badly, never change a pixel.
+#include <pah/accel/local_bvhs.hpp>
+#include <pah/render/render.hpp>
+#include <pah/scene/areas.hpp>
+
+#include "catch.hpp"
+#include "reference.hpp"
+
+using namespace pah;
+
+namespace {
+
+// For every light and camera whose rays meet or are parallel: areas that overlap and cut triangles,
+// one with a near plane, one of next to no size, and what is derived.
+std::vector<LocalArea> many_areas(const Scene& scene, const World& world) {
+  InfluenceSettings settings;
+  const auto add_point = [&](const std::string& light, const DVec3& forward, const DVec2& fov,
+                             double near, double far) {
+    settings.declared.emplace_back(PointAreaDeclaration{light, forward, fov, near, far});
+  };
+  const auto declare_point = [&](const std::string& light, const DVec3& forward) {
+    add_point(light, forward, {1e-4, 1e-4}, 0, 9);
+    add_point(light, forward, {20, 30}, 0.5, 9);
+    add_point(light, forward, {30, 20}, 0, 3);
+    add_point(light, forward + DVec3(0.3, 0, 0.2), {120, 90}, 1, 4);
+  };
+  const auto declare_plane = [&](const std::string& light, const DVec3& direction) {
+    settings.declared.emplace_back(
+        PlaneAreaDeclaration{light, {0, 1, 0}, direction, {1e-5, 1e-5}, 2});
+    settings.declared.emplace_back(PlaneAreaDeclaration{light, {0.3, 1, 0}, direction, {2, 1}, 1});
+    settings.declared.emplace_back(PlaneAreaDeclaration{light, {0, 3, 0}, direction, {9, 2}, 5});
+    settings.declared.emplace_back(PlaneAreaDeclaration{light, {0, 2, 0}, {0, -1, 0.1}, {3, 3}, 2});
+  };
+  for (const Light& light : scene.lights) {
+    if (const auto* spot = std::get_if<SpotLight>(&light.model))
+      declare_point(light.name, spot->direction);
+    if (std::holds_alternative<PointLight>(light.model)) declare_point(light.name, {0, -1, -0.5});
+    if (const auto* sun = std::get_if<DirectionalLight>(&light.model))
+      declare_plane(light.name, sun->direction);
+  }
+  if (const auto* camera = std::get_if<PerspectiveCamera>(&scene.camera)) {
+    if (camera->aperture_radius == 0) declare_point("camera", camera->look_at - camera->position);
+  } else {
+    const auto& view = std::get<OrthographicCamera>(scene.camera);
+    declare_plane("camera", view.look_at - view.position);
+  }
+  std::vector<LocalArea> areas;
+  for (const SceneArea& area : areas_of(world, settings, scene.film))
+    areas.push_back({area.area, area.bundle});
+  return areas;
+}
+
+bool identical(const FilmPixel& a, const FilmPixel& b) {
+  return a.sum == b.sum && a.sum_of_squares == b.sum_of_squares && a.albedo == b.albedo &&
+         a.normal == b.normal && a.depth == b.depth && a.samples == b.samples && a.hits == b.hits;
+}
+
+Film render_few(const World& world, const Accelerator& accelerator, const Scene& scene) {
+  RenderSettings settings = scene.render;
+  settings.samples = 4;
+  RenderOptions options;
+  options.count_traversal = true;
+  return render(world, accelerator, scene.film, settings, options).film;
+}
+
+}  // namespace
+
+TEST_CASE("Influence areas give the same golden pictures as brute force to the last bit") {
+  for (const std::string name : {"lamps", "columns", "scattered", "orthographic"}) {
+    CAPTURE(name);
+    const Scene scene = golden::load_golden(name).scene;
+    const World world = make_world(scene);
+    const std::vector<LocalArea> areas = many_areas(scene, world);
+    REQUIRE(areas.size() > 3);
+    const Film expected = render_few(world, *make_brute_force(world.triangles()), scene);
+    for (const auto heuristic : {LocalHeuristic::surface_area, LocalHeuristic::projected_area})
+      for (const auto split : {LocalSplit::best, LocalSplit::longest, LocalSplit::facing}) {
+        LocalConfig config;
+        config.heuristic = heuristic;
+        config.split = split;
+        const auto local = make_local_bvhs(world.triangles(), areas, config);
+        const Film film = render_few(world, *local, scene);
+        REQUIRE(film.pixels.size() == expected.pixels.size());
+        std::size_t differing = 0;
+        for (std::size_t i = 0; i < film.pixels.size(); ++i)
+          differing += identical(film.pixels[i], expected.pixels[i]) ? 0U : 1U;
+        CHECK(differing == 0);
+        // They were asked, and could answer.
+        std::uint64_t asked = 0, answered = 0;
+        for (const LocalBvhUse& use : local->uses()) {
+          asked += use.asked;
+          answered += use.answered;
+        }
+        CHECK(asked > 1000);
+        CHECK(answered > asked / 2);
+      }
+  }
+}
