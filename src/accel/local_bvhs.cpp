@@ -7,35 +7,17 @@
 // up to there its answer, the nearest or none, is the answer. This holds for triangles that are cut
 // by the region, areas that overlap and eyes inside of boxes alike; beyond it the ray is asked of
 // the global BVH again as a whole.
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <atomic>
-#include <chrono>
 #include <numeric>
 #include <pah/accel/local_bvhs.hpp>
 
 #include "accel/batch.hpp"
-#include "accel/bundle_measure.hpp"
-#include "bvh/build_bvh.hpp"
+#include "accel/build_local.hpp"
 
 namespace pah {
 
 namespace {
-
-// The largest number that coordinates and differences of coordinates in a box can have.
-float magnitude_of(const Aabb& box) {
-  const Vec3 size = glm::max(box.extent(), glm::max(glm::abs(box.min), glm::abs(box.max)));
-  return std::max(size.x, std::max(size.y, size.z));
-}
-
-// With u the unit roundoff and M the magnitude above: a segment's end misses the eye it was aimed
-// at by the rounding of the eye to float (u M), of the direction (2 u M), of the offset origin and
-// of t_max (1 u M each).
-constexpr int end_roundings = 5;
-// Adds the padding of the slab test (11 u M and 2 u M, ray_box.hpp), the rounding of the interval's
-// ends (3 u M) and that of the widened box (2 u M).
-constexpr int margin_roundings = end_roundings + 18;
 
 struct Area {
   LocalArea declared;
@@ -65,29 +47,6 @@ struct Area {
         glm::lessThanEqual(glm::abs(end - point->frustum.eye), DVec3(double{end_margin})));
   }
 };
-
-std::vector<std::uint32_t> triangles_near(const Triangles& triangles, const Region& region,
-                                          float margin) {
-  const RegionShape shape = shape_of(region);
-  std::vector<std::uint8_t> near(triangles.size());
-  tbb::parallel_for(std::size_t{0}, near.size(), [&](std::size_t i) {
-    const Aabb box = triangles[i].bounds();
-    near[i] = overlaps(shape, Aabb{box.min - margin, box.max + margin}) ? 1 : 0;
-  });
-  std::vector<std::uint32_t> subset;
-  for (std::size_t i = 0; i < near.size(); ++i) {
-    if (near[i] != 0) subset.push_back(static_cast<std::uint32_t>(i));
-  }
-  return subset;
-}
-
-// Expected cost of a ray of the bundle, whether it meets the tree's root or not.
-double bundle_cost(const BinaryTree& tree, const BuildConfig& config,
-                   const HitProbability& probability) {
-  if (tree.empty()) return 0;
-  return expected_cost(tree, config, probability) *
-         double{probability.area(tree.nodes.front().box)};
-}
 
 // Threads add what a batch was; nobody reads while they do.
 struct Counters {
@@ -194,33 +153,20 @@ class LocalBvhsOverGlobal final : public LocalBvhs {
 
   void add(const LocalArea& declared, const Triangles& triangles, const LocalConfig& config,
            const BinaryTree& global) {
-    const auto start = std::chrono::steady_clock::now();
     Area area;
     area.declared = declared;
-    area.region = region_of(declared.area);
-    Aabb reachable = bounds_;
-    reachable.extend(enclosing_box(area.region));
-    const float magnitude = magnitude_of(reachable);
-    area.end_margin = rounding_bound(end_roundings) * magnitude;
-    const std::vector<std::uint32_t> subset =
-        triangles_near(triangles, area.region, rounding_bound(margin_roundings) * magnitude);
-    area.holds_scene = subset.size() == triangles.size();
+    BuiltLocalBvh local = build_local_bvh(triangles, bounds_, declared.area, config);
+    area.region = local.region;
+    area.end_margin = local.end_margin;
+    area.holds_scene = local.triangles == triangles.size();
+    area.bvh = std::move(local.built.bvh);
 
-    const BundleAxes axes(declared.area, config.split, config.facing_threshold);
     const HitProbability probability(declared.area);
-    BuiltBvh built =
-        config.heuristic == LocalHeuristic::projected_area
-            ? build_bvh_and_tree(triangles, subset, config.build,
-                                 LocalProjectedArea{axes, probability})
-            : build_bvh_and_tree(triangles, subset, config.build, LocalSurfaceArea{axes});
-    area.bvh = std::move(built.bvh);
-
     LocalBvhReport report;
-    report.triangles = subset.size();
+    report.triangles = local.triangles;
     report.bytes = area.bvh.memory_bytes();
-    report.build_seconds =
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    report.predicted_cost = bundle_cost(built.tree, config.build, probability);
+    report.build_seconds = local.seconds;
+    report.predicted_cost = bundle_cost(local.built.tree, config.build, probability);
     report.global_cost = bundle_cost(global, BuildConfig{}, probability);
     reports_.push_back(report);
     areas_.push_back(std::move(area));

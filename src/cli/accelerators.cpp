@@ -14,7 +14,17 @@ constexpr std::array<AcceleratorName, 3> names{{
 constexpr std::string_view bvh = names[0].name;
 constexpr std::string_view local = names[1].name;
 
-LocalConfig config_of(const AccelerationSettings& settings) {
+std::unique_ptr<LocalBvhs> make_local(const ChosenAccelerator& chosen, const World& world,
+                                      const AccelerationSettings& settings) {
+  std::vector<LocalArea> areas;
+  for (std::size_t i = 0; i < chosen.areas.size(); ++i)
+    if (chosen.choices[i].build) areas.push_back({chosen.areas[i].area, chosen.areas[i].bundle});
+  return make_local_bvhs(world.triangles(), areas, local_config(settings));
+}
+
+}  // namespace
+
+LocalConfig local_config(const AccelerationSettings& settings) {
   LocalConfig config;
   if (settings.heuristic == Heuristic::pah) config.heuristic = LocalHeuristic::projected_area;
   if (settings.split_axis == SplitAxis::longest) config.split = LocalSplit::longest;
@@ -23,16 +33,6 @@ LocalConfig config_of(const AccelerationSettings& settings) {
   config.build.max_leaf = static_cast<std::uint32_t>(settings.max_leaf_triangles);
   return config;
 }
-
-std::unique_ptr<LocalBvhs> make_local(const ChosenAccelerator& chosen, const World& world,
-                                      const AccelerationSettings& settings) {
-  std::vector<LocalArea> areas;
-  for (std::size_t i = 0; i < chosen.areas.size(); ++i)
-    if (chosen.choices[i].build) areas.push_back({chosen.areas[i].area, chosen.areas[i].bundle});
-  return make_local_bvhs(world.triangles(), areas, config_of(settings));
-}
-
-}  // namespace
 
 std::span<const AcceleratorName> accelerators() { return names; }
 

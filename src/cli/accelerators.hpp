@@ -22,6 +22,9 @@ struct AcceleratorName {
 
 [[nodiscard]] bool is_accelerator(std::string_view name);
 
+// How a scene's acceleration settings have local BVHs built.
+[[nodiscard]] LocalConfig local_config(const AccelerationSettings& settings);
+
 struct ChosenAccelerator {
   std::string name;
   std::unique_ptr<Accelerator> accelerator;

@@ -6,9 +6,11 @@
 #include <numeric>
 #include <pah/io/image_file.hpp>
 #include <pah/io/load_scene.hpp>
+#include <pah/scene/areas.hpp>
 #include <pah/scene/world.hpp>
 
-#include "bvh/build_bvh.hpp"
+#include "accel/build_local.hpp"
+#include "cli/accelerators.hpp"
 #include "cli/interrupt.hpp"
 #include "io/output_file.hpp"
 #include "report/box_gltf.hpp"
@@ -59,6 +61,23 @@ TimedBvh build_global(const Triangles& triangles) {
   return {std::move(built), seconds.count()};
 }
 
+BvhReport report_local(const World& world, const SceneArea& area, const LocalConfig& config,
+                       const BinaryTree& global) {
+  const BuiltLocalBvh local = build_local_bvh(world.triangles(), world.bounds, area.area, config);
+  const BinaryTree& tree = local.built.tree;
+  const HitProbability probability(area.area);
+  const bool projected = config.heuristic == LocalHeuristic::projected_area;
+  return {.name = area.name,
+          .heuristic = projected ? "projected area" : "surface area",
+          .tree = summarize(tree, config.build, probability),
+          .wide_nodes = local.built.bvh.nodes.size(),
+          .camera_rays = std::nullopt,
+          .bundle = BundleCosts{bundle_cost(tree, config.build, probability),
+                                bundle_cost(global, BuildConfig{}, probability)},
+          .memory_bytes = local.built.bvh.memory_bytes(),
+          .build_seconds = local.seconds};
+}
+
 }  // namespace
 
 ExitCode run_inspect(const InspectArguments& arguments) {
@@ -83,8 +102,14 @@ ExitCode run_inspect(const InspectArguments& arguments) {
                          .tree = summarize(global.built.tree, BuildConfig{}, SurfaceArea{}),
                          .wide_nodes = global.built.bvh.nodes.size(),
                          .camera_rays = summarize(costs),
+                         .bundle = std::nullopt,
                          .memory_bytes = global.built.bvh.memory_bytes(),
                          .build_seconds = global.seconds});
+
+  for (const SceneArea& area : areas_of(world, scene.influence_areas, scene.film))
+    if (choose(area).build)
+      report.bvhs.push_back(
+          report_local(world, area, local_config(scene.acceleration), global.built.tree));
 
   fmt::print("{}", inspect_text(report));
   if (!arguments.json.empty()) write_text_file(arguments.json, inspect_json(report));
@@ -92,7 +117,7 @@ ExitCode run_inspect(const InspectArguments& arguments) {
   if (!arguments.boxes.empty())
     write_text_file(arguments.boxes, boxes_gltf(global.built.tree, arguments.levels, world.origin));
   if (!arguments.heat_map.empty()) {
-    const CostSummary& most = report.bvhs.front().camera_rays;
+    const CostSummary most = summarize(costs);
     write_image(arguments.heat_map, {{"", {"R", "G", "B"}, heat_map(costs)}});
     fmt::print("\nheat map {}: white is {} nodes on the left, {} triangles on the right\n",
                arguments.heat_map.string(), most.max_nodes, most.max_triangles);

@@ -48,7 +48,6 @@ std::string levels_text(const TreeSummary& tree) {
 
 std::string bvh_text(const BvhReport& bvh) {
   const TreeSummary& tree = bvh.tree;
-  const CostSummary& rays = bvh.camera_rays;
   std::string text = fmt::format("\nBVH {} ({})\n", bvh.name, bvh.heuristic);
   const auto line = [&](std::string_view name, const std::string& what) {
     text += fmt::format("  {:18}{}\n", name, what);
@@ -59,10 +58,16 @@ std::string bvh_text(const BvhReport& bvh) {
   line("depth of leaves", fmt::format("at most {}, mean {:.1f}", tree.max_depth, tree.mean_depth));
   line("expected cost", fmt::format("{:.2f}", tree.expected_cost));
   line("overlap", fmt::format("{:.1f} % of the parent, mean", 100 * tree.overlap));
-  line("camera rays", fmt::format("{}, of which {:.1f} % hit", rays.rays, 100 * hit_share(rays)));
-  line("  nodes", fmt::format("at most {}, mean {:.2f}", rays.max_nodes, rays.nodes_per_ray));
-  line("  triangles",
-       fmt::format("at most {}, mean {:.2f}", rays.max_triangles, rays.triangles_per_ray));
+  if (const auto& bundle = bvh.bundle)
+    line("bundle's rays",
+         fmt::format("expected {:.2f}, in the global BVH {:.2f}", bundle->local, bundle->global));
+  if (const auto& rays = bvh.camera_rays) {
+    line("camera rays",
+         fmt::format("{}, of which {:.1f} % hit", rays->rays, 100 * hit_share(*rays)));
+    line("  nodes", fmt::format("at most {}, mean {:.2f}", rays->max_nodes, rays->nodes_per_ray));
+    line("  triangles",
+         fmt::format("at most {}, mean {:.2f}", rays->max_triangles, rays->triangles_per_ray));
+  }
   line("memory", format_bytes(bvh.memory_bytes));
   line("build", fmt::format("{:.3g} s", bvh.build_seconds));
   if (tree.nodes > 0) text += "\n" + leaf_sizes_text(tree) + "\n" + levels_text(tree);
@@ -71,7 +76,6 @@ std::string bvh_text(const BvhReport& bvh) {
 
 Json bvh_json(const BvhReport& bvh) {
   const TreeSummary& tree = bvh.tree;
-  const CostSummary& rays = bvh.camera_rays;
   Json sizes = Json::array();
   for (std::size_t size = 1; size < tree.leaf_sizes.size(); ++size)
     sizes.push_back({{"triangles", size}, {"leaves", tree.leaf_sizes[size]}});
@@ -79,26 +83,29 @@ Json bvh_json(const BvhReport& bvh) {
   for (const TreeLevel& level : tree.levels)
     levels.push_back(
         {{"nodes", level.nodes}, {"leaves", level.leaves}, {"overlap", level.overlap}});
-  return {{"name", bvh.name},
-          {"heuristic", bvh.heuristic},
-          {"triangles", tree.triangles},
-          {"nodes", tree.nodes},
-          {"leaves", tree.leaves},
-          {"wide_nodes", bvh.wide_nodes},
-          {"depth", {{"max", tree.max_depth}, {"mean", tree.mean_depth}}},
-          {"expected_cost", tree.expected_cost},
-          {"overlap", tree.overlap},
-          {"camera_rays",
-           {{"rays", rays.rays},
-            {"hits", rays.hits},
-            {"nodes_per_ray", rays.nodes_per_ray},
-            {"triangles_per_ray", rays.triangles_per_ray},
-            {"max_nodes", rays.max_nodes},
-            {"max_triangles", rays.max_triangles}}},
-          {"memory_bytes", bvh.memory_bytes},
-          {"build_seconds", bvh.build_seconds},
-          {"leaf_sizes", std::move(sizes)},
-          {"levels", std::move(levels)}};
+  Json json{{"name", bvh.name},
+            {"heuristic", bvh.heuristic},
+            {"triangles", tree.triangles},
+            {"nodes", tree.nodes},
+            {"leaves", tree.leaves},
+            {"wide_nodes", bvh.wide_nodes},
+            {"depth", {{"max", tree.max_depth}, {"mean", tree.mean_depth}}},
+            {"expected_cost", tree.expected_cost},
+            {"overlap", tree.overlap},
+            {"memory_bytes", bvh.memory_bytes},
+            {"build_seconds", bvh.build_seconds},
+            {"leaf_sizes", std::move(sizes)},
+            {"levels", std::move(levels)}};
+  if (const auto& bundle = bvh.bundle)
+    json["bundle_cost"] = {{"local", bundle->local}, {"global", bundle->global}};
+  if (const auto& rays = bvh.camera_rays)
+    json["camera_rays"] = {{"rays", rays->rays},
+                           {"hits", rays->hits},
+                           {"nodes_per_ray", rays->nodes_per_ray},
+                           {"triangles_per_ray", rays->triangles_per_ray},
+                           {"max_nodes", rays->max_nodes},
+                           {"max_triangles", rays->max_triangles}};
+  return json;
 }
 
 }  // namespace
@@ -130,7 +137,6 @@ std::string inspect_csv(const InspectReport& report) {
       text += fmt::format("{},{},{},{}\n", name, quantity, at, value);
     };
     const TreeSummary& tree = bvh.tree;
-    const CostSummary& rays = bvh.camera_rays;
     row("triangles", "", tree.triangles);
     row("nodes", "", tree.nodes);
     row("leaves", "", tree.leaves);
@@ -139,12 +145,18 @@ std::string inspect_csv(const InspectReport& report) {
     row("mean_depth", "", tree.mean_depth);
     row("expected_cost", "", tree.expected_cost);
     row("overlap", "", tree.overlap);
-    row("camera_rays", "", rays.rays);
-    row("camera_hits", "", rays.hits);
-    row("nodes_per_ray", "", rays.nodes_per_ray);
-    row("triangles_per_ray", "", rays.triangles_per_ray);
-    row("max_nodes", "", rays.max_nodes);
-    row("max_triangles", "", rays.max_triangles);
+    if (const auto& bundle = bvh.bundle) {
+      row("bundle_cost", "local", bundle->local);
+      row("bundle_cost", "global", bundle->global);
+    }
+    if (const auto& rays = bvh.camera_rays) {
+      row("camera_rays", "", rays->rays);
+      row("camera_hits", "", rays->hits);
+      row("nodes_per_ray", "", rays->nodes_per_ray);
+      row("triangles_per_ray", "", rays->triangles_per_ray);
+      row("max_nodes", "", rays->max_nodes);
+      row("max_triangles", "", rays->max_triangles);
+    }
     row("memory_bytes", "", bvh.memory_bytes);
     row("build_seconds", "", bvh.build_seconds);
     for (std::size_t size = 1; size < tree.leaf_sizes.size(); ++size)

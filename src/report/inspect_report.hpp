@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,12 +11,20 @@
 
 namespace pah {
 
+// Of a ray of an influence area's bundle, whether it meets any box or not.
+struct BundleCosts {
+  double local = 0;   // in the area's own BVH
+  double global = 0;  // in that of the whole scene
+};
+
+// The tree's measures and costs are those of `heuristic`, or for a local BVH those of its bundle.
 struct BvhReport {
   std::string name;
   std::string heuristic;
-  TreeSummary tree;              // as it was built, with two children a node
-  std::uint64_t wide_nodes = 0;  // as it is traversed, with up to eight
-  CostSummary camera_rays;
+  TreeSummary tree;                        // as it was built, with two children a node
+  std::uint64_t wide_nodes = 0;            // as it is traversed, with up to eight
+  std::optional<CostSummary> camera_rays;  // of the global BVH
+  std::optional<BundleCosts> bundle;       // of a local BVH
   std::uint64_t memory_bytes = 0;
   double build_seconds = 0;
 };
@@ -30,8 +39,8 @@ struct InspectReport {
 
 [[nodiscard]] std::string inspect_text(const InspectReport& report);
 [[nodiscard]] std::string inspect_json(const InspectReport& report);
-// A row for every number: "bvh,quantity,at,value", where `at` is the level, the triangles of a leaf
-// or nothing.
+// A row for every number: "bvh,quantity,at,value", where `at` is the level, the triangles of a
+// leaf, which of two, or nothing.
 [[nodiscard]] std::string inspect_csv(const InspectReport& report);
 
 }  // namespace pah

@@ -65,6 +65,28 @@ TEST_CASE("inspect reports, and writes what it is asked for") {
   CHECK(nlohmann::json::parse(read_file("boxes.gltf"))["meshes"].size() == 2);
 }
 
+TEST_CASE("inspect tells of the local BVHs that a render has") {
+  const CurrentTemporaryFolder folder;
+  write_file("scene.yaml", std::string(small_scene) +
+                               "influence_areas:\n"
+                               "  - {type: point, light: bulb, forward: [0, -1, 0],"
+                               " fov: [120, 120], near: 0, far: 4}\n"
+                               "acceleration: {heuristic: pah}\n");
+  const Outcome outcome = run({"inspect", "scene.yaml", "--json", "r.json", "--csv", "r.csv"});
+  INFO(outcome.err);
+  REQUIRE(outcome.exit_code == 0);
+  const auto report = nlohmann::json::parse(read_file("r.json"));
+  REQUIRE(report["bvhs"].size() == 2);
+  const auto& bvh = report["bvhs"][1];
+  CHECK(bvh["heuristic"] == "projected area");
+  CHECK(bvh["triangles"] == 14);
+  CHECK(bvh["bundle_cost"]["local"].get<double>() > 0);
+  CHECK(bvh["bundle_cost"]["local"].get<double>() <= bvh["bundle_cost"]["global"].get<double>());
+  CHECK_FALSE(bvh.contains("camera_rays"));
+  CHECK(outcome.out.find("BVH bulb") != std::string::npos);
+  CHECK(read_file("r.csv").find("bundle_cost,global,") != std::string::npos);
+}
+
 TEST_CASE("inspect takes scenes of nothing") {
   const CurrentTemporaryFolder folder;
   write_file("scene.yaml", "film: {width: 8, height: 6}\n");
