@@ -99,7 +99,7 @@ TEST_CASE("the command line overrides the scene") {
   CHECK(read_json("stats.json")["samples"] == 2);
 }
 
-TEST_CASE("--exposure counts in stops, in low dynamic range files only") {
+TEST_CASE("switch --exposure counts in stops, in low dynamic range files only") {
   const CurrentTemporaryFolder folder;
   write_file("scene.yaml", small_scene);
   render({"scene.yaml", "-o", "out.png"});
@@ -111,7 +111,7 @@ TEST_CASE("--exposure counts in stops, in low dynamic range files only") {
   CHECK(identical("a.exr", "b.exr"));
 }
 
-TEST_CASE("--stats has every key of the contract, of the right type") {
+TEST_CASE("switch --stats has every key of the contract, of the right type") {
   const CurrentTemporaryFolder folder;
   write_file("scene.yaml", small_scene);
   render({"scene.yaml", "-o", "out.png", "--stats", "stats.json"});
@@ -170,7 +170,7 @@ TEST_CASE("EXR files say how they were made and hold the layers asked for") {
   CHECK(spec.channelindex("normal.X") < 0);
 }
 
-TEST_CASE("--time-limit ends a render that would take for ever") {
+TEST_CASE("switch --time-limit ends a render that would take for ever") {
   const CurrentTemporaryFolder folder;
   write_file("scene.yaml", small_scene);
   const Outcome outcome = run({"scene.yaml", "-o", "out.png", "--spp", "1000000000", "--time-limit",
@@ -204,7 +204,7 @@ TEST_CASE("another seed gives another picture") {
   CHECK(!identical("a.exr", "b.exr"));
 }
 
-TEST_CASE("--threads and --accel do as they say, and never change a pixel") {
+TEST_CASE("switch --threads and --accel do as they say, and never change a pixel") {
   const CurrentTemporaryFolder folder;
   write_file("scene.yaml", small_scene);
   const auto render_to = [](const char* out, const char* accelerator, const char* threads) {

@@ -108,7 +108,7 @@ TEST_CASE("a wrong override is an error of the scene") {
   check_failure({"scene.yaml", "-D", "film.width=-3"}, 3, "width");
 }
 
-TEST_CASE("--check loads and writes nothing") {
+TEST_CASE("switch --check loads and writes nothing") {
   const CurrentTemporaryFolder folder;
   write_file("scene.yaml", small_scene);
   const Outcome outcome = run({"scene.yaml", "--check", "-o", "out.png", "--stats", "stats.json"});
