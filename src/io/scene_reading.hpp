@@ -55,13 +55,13 @@ struct SceneReading {
   NameTable materials{"material"};
   NameTable meshes{"mesh"};
   NameTable lights{"light"};
-  std::unordered_map<std::string, TextureId> images{};       // inline ones, by path and colour space
+  std::unordered_map<std::string, TextureId> images{};  // inline ones, by path and colour space
   std::unordered_map<TextureId, TextureId> linear_copies{};  // of images used as numbers
   std::vector<std::size_t> first_instances{};  // by id in `meshes`; no_instance if it has none
   std::unordered_map<std::string, ImportedFile> imported{};  // mesh files, by path and options
   std::unordered_map<int, MaterialId> unnamed_materials{};   // by reflectance in percent
-  std::uint64_t triangles = 0;                             // of all instances so far
-  bool has_camera = false;                                 // the file has a camera section
+  std::uint64_t triangles = 0;                               // of all instances so far
+  bool has_camera = false;                                   // the file has a camera section
 };
 
 // "mesh 'floor'", or "mesh 3" (from 1) if it has no name.
