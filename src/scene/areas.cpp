@@ -14,7 +14,15 @@ namespace {
 constexpr const char* camera_name = "camera";
 
 // Positions are rounded to float before rays are aimed at them or leave them.
-DVec3 as_rays_see_it(const DVec3& position) { return DVec3{Vec3(position)}; }
+DVec3 as_rays_see_it(const DVec3& position) {
+  DVec3 seen;
+  for (int k = 0; k < 3; ++k) {
+    // GCC 12 vectorizes the two conversions and then drops them both, were it not volatile.
+    const volatile float rounded = static_cast<float>(position[k]);
+    seen[k] = double{rounded};
+  }
+  return seen;
+}
 
 // Where rays of a bundle start and what they may hit: the box of all triangles, widened.
 struct Reachable {
