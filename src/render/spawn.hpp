@@ -8,13 +8,9 @@
 #include <limits>
 #include <pah/geometry/ray.hpp>
 
-namespace pah {
+#include "geometry/rounding.hpp"
 
-// The bound on the relative error of n float operations in a row (Higham).
-constexpr float rounding_bound(int n) {
-  const double unit = 0.5 * static_cast<double>(std::numeric_limits<float>::epsilon());
-  return static_cast<float>(n * unit / (1 - n * unit));
-}
+namespace pah {
 
 // The neighbouring floats; x is finite.
 inline float next_float_up(float x) {
