@@ -114,6 +114,7 @@ void add_render_options(CLI::App& app, RenderArguments& arguments) {
       ->type_name("KEY=VALUE");
   app.add_option("--stats", arguments.stats, "Write what was done and how long it took, as JSON")
       ->type_name("FILE");
+  app.add_flag("--half", arguments.half, "EXR: 16-bit floats instead of 32-bit");
   app.add_flag("--quiet", arguments.quiet, "Say nothing but errors");
   app.add_flag("--check", arguments.check, "Only load the scene and report its errors");
 }

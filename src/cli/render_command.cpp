@@ -103,11 +103,11 @@ std::uint64_t total_rays(const RenderCounts& counts) {
 }
 
 void write_picture(const fs::path& file, const RenderResult& result, const Scene& scene,
-                   const std::string& hash) {
+                   const std::string& hash, bool half) {
   WriteOptions options;
   options.exposure = scene.film.exposure;
-  // Comparisons of pictures are not to meet the rounding to half floats.
-  options.full_float = true;
+  // Unless asked to, comparisons of pictures are not to meet the rounding to half floats.
+  options.full_float = !half;
   options.metadata = {{"pahrender:version", PAHRENDER_VERSION},
                       {"pahrender:scene_hash", hash},
                       {"pahrender:samples", std::to_string(result.samples)},
@@ -167,7 +167,7 @@ ExitCode run_render(const RenderArguments& arguments) {
     fmt::print(stderr, "interrupted before there was anything to save\n");
     return ExitCode::interrupted;
   }
-  write_picture(output, result, scene, loaded.hash);
+  write_picture(output, result, scene, loaded.hash, arguments.half);
   if (!arguments.quiet) print_summary(output, result, scene.render.samples);
 
   if (!arguments.stats.empty()) {

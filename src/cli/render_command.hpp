@@ -25,6 +25,7 @@ struct RenderArguments {
   std::string accelerator;             // empty: by the scene
   std::vector<std::string> overrides;  // key.path=value
   std::filesystem::path stats;         // empty: none
+  bool half = false;                   // EXR files in 16-bit floats
   bool quiet = false;
   bool check = false;
 };

@@ -168,6 +168,10 @@ TEST_CASE("EXR files say how they were made and hold the layers asked for") {
   CHECK(spec.channelindex("albedo.R") >= 0);
   CHECK(spec.channelindex("depth.Z") >= 0);
   CHECK(spec.channelindex("normal.X") < 0);
+  CHECK(spec.channelformat(0) == OIIO::TypeFloat);
+
+  render({"scene.yaml", "-o", "half.exr", "--half"});
+  CHECK(OIIO::ImageInput::open("half.exr")->spec().channelformat(0) == OIIO::TypeHalf);
 }
 
 TEST_CASE("switch --time-limit ends a render that would take for ever") {
