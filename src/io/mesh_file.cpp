@@ -1,9 +1,11 @@
+#include <assimp/BaseImporter.h>
 #include <assimp/importerdesc.h>
 #include <assimp/scene.h>
 
 #include <algorithm>
 #include <assimp/Importer.hpp>
 #include <cmath>
+#include <memory>
 #include <pah/io/mesh_file.hpp>
 #include <pah/scene/placement.hpp>
 #include <sstream>
@@ -38,7 +40,10 @@ void keep_importer(Assimp::Importer& importer, const std::string& extension) {
     for (std::string word; words >> word;) keeps |= "." + word == extension;
     // glTF 1.0 goes by the same extensions.
     keeps = keeps && std::string(info->mName) != "glTF Importer";
-    if (!keeps) importer.UnregisterLoader(importer.GetImporter(i));
+    if (keeps) continue;
+    // An importer that is unregistered is no longer owned by anyone.
+    const std::unique_ptr<Assimp::BaseImporter> unwanted(importer.GetImporter(i));
+    importer.UnregisterLoader(unwanted.get());
   }
 }
 

@@ -17,11 +17,12 @@ constexpr int width = 64, height = 48;
 // A picture of `mean`, with normal noise of standard deviation `deviation` in each batch.
 Batches noisy_picture(double mean, double deviation, int count, unsigned seed) {
   std::mt19937 generator(seed);
-  std::normal_distribution<double> noise(mean, deviation);
+  std::normal_distribution<double> standard;
+  const auto noise = [&] { return mean + deviation * standard(generator); };
   Batches batches(width, height);
   for (int i = 0; i < count; ++i) {
     std::vector<DVec3> picture(static_cast<std::size_t>(width) * height);
-    for (DVec3& pixel : picture) pixel = {noise(generator), noise(generator), noise(generator)};
+    for (DVec3& pixel : picture) pixel = {noise(), noise(), noise()};
     batches.add(picture);
   }
   return batches;
