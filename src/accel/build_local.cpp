@@ -1,12 +1,11 @@
 #include "accel/build_local.hpp"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <chrono>
 
 #include "accel/bundle_measure.hpp"
 #include "geometry/rounding.hpp"
+#include "parallel/parallel_for.hpp"
 
 namespace pah {
 
@@ -30,7 +29,7 @@ std::vector<std::uint32_t> triangles_near(const Triangles& triangles, const Regi
                                           float margin) {
   const RegionShape shape = shape_of(region);
   std::vector<std::uint8_t> near(triangles.size());
-  tbb::parallel_for(std::size_t{0}, near.size(), [&](std::size_t i) {
+  parallel_for(near.size(), 4096, [&](std::size_t i) {
     const Aabb box = triangles[i].bounds();
     near[i] = overlaps(shape, Aabb{box.min - margin, box.max + margin}) ? 1 : 0;
   });

@@ -3,17 +3,14 @@
 // threads. A heuristic supplies only the measure of a box and the axes to split.
 #pragma once
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-#include <tbb/parallel_reduce.h>
-#include <tbb/task_group.h>
-
 #include <algorithm>
 #include <array>
 #include <limits>
 #include <span>
 
 #include "bvh/binary_tree.hpp"
+#include "parallel/parallel_for.hpp"
+#include "parallel/task_group.hpp"
 
 namespace pah {
 
@@ -77,24 +74,17 @@ struct NodeBounds {
   }
 };
 
-// Folds `add(partial, item)` over items; in a fixed shape, so that the result is deterministic.
+// Folds `add(partial, item)` over items.
 template <typename Value, typename Add, typename Join>
 [[nodiscard]] Value fold(std::span<const Item> items, const Value& zero, const Add& add,
                          const Join& join) {
-  const auto serial = [&](std::span<const Item> part, Value value) {
-    for (const Item& item : part) add(value, item);
+  const auto serial = [&](std::size_t first, std::size_t last) {
+    Value value = zero;
+    for (std::size_t i = first; i < last; ++i) add(value, items[i]);
     return value;
   };
-  if (items.size() < 4 * parallel_grain) return serial(items, zero);
-  return tbb::parallel_deterministic_reduce(
-      tbb::blocked_range<std::size_t>(0, items.size(), 4 * parallel_grain), zero,
-      [&](const tbb::blocked_range<std::size_t>& range, const Value& value) {
-        return serial(items.subspan(range.begin(), range.size()), value);
-      },
-      [&](Value left, const Value& right) {
-        join(left, right);
-        return left;
-      });
+  if (items.size() < 4 * parallel_grain) return serial(0, items.size());
+  return parallel_fold(items.size(), 4 * parallel_grain, zero, serial, join);
 }
 
 template <typename Heuristic>
@@ -271,7 +261,7 @@ class Builder {
   std::uint32_t side_by_side_;
   const Heuristic& heuristic_;
   std::vector<BinaryTree::Node> nodes_;
-  tbb::task_group tasks_;
+  TaskGroup tasks_;
 };
 
 }  // namespace detail
@@ -282,7 +272,7 @@ template <typename Heuristic = SurfaceArea>
 [[nodiscard]] BinaryTree build_tree(std::span<const Aabb> boxes, const BuildConfig& config = {},
                                     const Heuristic& heuristic = {}) {
   std::vector<detail::Item> items(boxes.size());
-  tbb::parallel_for(std::size_t{0}, boxes.size(), [&](std::size_t i) {
+  parallel_for(boxes.size(), detail::parallel_grain, [&](std::size_t i) {
     items[i] = {boxes[i], static_cast<std::uint32_t>(i)};
   });
   return detail::Builder<Heuristic>(items, config, heuristic).build();

@@ -20,8 +20,8 @@ template <typename Heuristic = SurfaceArea>
                                           const Heuristic& heuristic = {}) {
   config.max_leaf = std::min(config.max_leaf, ChildRef::max_leaf);
   std::vector<Aabb> boxes(subset.size());
-  tbb::parallel_for(std::size_t{0}, boxes.size(),
-                    [&](std::size_t i) { boxes[i] = triangles[subset[i]].bounds(); });
+  parallel_for(boxes.size(), detail::parallel_grain,
+               [&](std::size_t i) { boxes[i] = triangles[subset[i]].bounds(); });
   BinaryTree tree = build_tree(std::span<const Aabb>(boxes), config, heuristic);
   std::vector<float> areas(tree.nodes.size());
   for (std::size_t i = 0; i < areas.size(); ++i) areas[i] = heuristic.area(tree.nodes[i].box);

@@ -1,8 +1,6 @@
-#include <oneapi/tbb/blocked_range.h>
-#include <oneapi/tbb/enumerable_thread_specific.h>
-#include <oneapi/tbb/global_control.h>
-#include <oneapi/tbb/parallel_for.h>
-#include <oneapi/tbb/task_arena.h>
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/global_control.h>
+#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <chrono>
@@ -10,6 +8,7 @@
 #include <optional>
 #include <pah/render/render.hpp>
 
+#include "parallel/parallel_for.hpp"
 #include "render/path_tracer.hpp"
 
 namespace pah {
@@ -147,14 +146,7 @@ RenderResult render(const World& world, const Accelerator& accelerator, const Fi
                            static_cast<std::uint64_t>(count);
       reporter.tile_done(samples, rays, result.samples);
     };
-    arena.execute([&] {
-      tbb::parallel_for(
-          tbb::blocked_range<std::size_t>(0, tiles.size(), 1),
-          [&](const tbb::blocked_range<std::size_t>& range) {
-            for (std::size_t i = range.begin(); i != range.end(); ++i) trace_tile(i);
-          },
-          tbb::simple_partitioner());
-    });
+    arena.execute([&] { parallel_for(tiles.size(), 1, trace_tile); });
     if (stopped()) break;
     result.samples += count;
     reporter.pass_done(result.samples);

@@ -1,10 +1,9 @@
 #include "report/ray_costs.hpp"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 
 #include "accel/batch.hpp"
+#include "parallel/parallel_for.hpp"
 #include "render/camera_rays.hpp"
 
 namespace pah {
@@ -15,14 +14,15 @@ PictureCosts measure_costs(const Bvh& bvh, const Aabb& bounds, const Camera& cam
   const auto width = static_cast<std::size_t>(film.width);
   PictureCosts costs{film.width, film.height, {}};
   costs.rays.resize(width * static_cast<std::size_t>(film.height));
-  tbb::parallel_for(0, film.height, [&](int y) {
+  parallel_for(static_cast<std::size_t>(film.height), 1, [&](std::size_t row) {
+    const int y = static_cast<int>(row);
     for (int x = 0; x < film.width; ++x) {
       // By itself, so that the counts are its own.
       const PreparedRay ray = prepare(camera_rays.central(x, y), bounds);
       Hit hit = nothing_yet(ray);
       TraversalCounts counts;
       closest_hits(bvh, std::span(&ray, 1), std::span(&hit, 1), &counts);
-      costs.rays[static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x)] = {
+      costs.rays[row * width + static_cast<std::size_t>(x)] = {
           static_cast<std::uint32_t>(counts.nodes), static_cast<std::uint32_t>(counts.triangles),
           hit.valid()};
     }

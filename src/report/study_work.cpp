@@ -1,13 +1,12 @@
 #include "report/study_work.hpp"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <utility>
 
 #include "geometry/ray_triangle.hpp"
+#include "parallel/parallel_for.hpp"
 
 namespace pah {
 namespace {
@@ -98,19 +97,15 @@ Tally count_closest(const StudyTree& on, const BundleRay& bundle_ray, bool withi
   return one_ray(cost, best.valid());
 }
 
-// Sums by chunks in a fixed order: the same to the last bit, whatever the threads.
 template <typename Count>
 Tally sum_over(std::span<const BundleRay> rays, const Count& count) {
-  constexpr std::size_t chunk = 1024;
-  std::vector<Tally> parts((rays.size() + chunk - 1) / chunk);
-  tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t i) {
-    const std::size_t first = i * chunk;
-    for (const BundleRay& ray : rays.subspan(first, std::min(chunk, rays.size() - first)))
-      parts[i].add(count(ray));
-  });
-  Tally total;
-  for (const Tally& part : parts) total.add(part);
-  return total;
+  const auto part = [&](std::size_t first, std::size_t last) {
+    Tally tally;
+    for (std::size_t i = first; i < last; ++i) tally.add(count(rays[i]));
+    return tally;
+  };
+  return parallel_fold(rays.size(), 1024, Tally{}, part,
+                       [](Tally& sum, const Tally& other) { sum.add(other); });
 }
 
 }  // namespace

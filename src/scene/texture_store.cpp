@@ -1,13 +1,13 @@
 #include "scene/texture_store.hpp"
 
 #include <OpenImageIO/texture.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
 #include <mutex>
 #include <optional>
 
+#include "parallel/parallel_for.hpp"
 #include "scene/texture_linear_input.hpp"
 
 namespace pah {
@@ -233,7 +233,7 @@ TextureStore::TextureStore(std::span<const Texture> textures, const TextureOptio
   if (std::any_of(textures.begin(), textures.end(), is_image)) impl_->start_system();
 
   std::vector<std::optional<TextureError>> errors(textures.size());
-  tbb::parallel_for(std::size_t{0}, textures.size(), [&](std::size_t i) {
+  parallel_for(textures.size(), 1, [&](std::size_t i) {
     Entry& entry = impl_->entries[i];
     if (const auto* checker = std::get_if<CheckerTexture>(&textures[i])) {
       entry = {true, checker->scale, DVec2{0}, Vec4{checker->a, 1}, Vec4{checker->b, 1}, {}};

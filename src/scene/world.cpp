@@ -1,11 +1,10 @@
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-#include <tbb/parallel_reduce.h>
 #include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <pah/scene/world.hpp>
 #include <stdexcept>
+
+#include "parallel/parallel_for.hpp"
 
 namespace pah {
 namespace {
@@ -46,23 +45,18 @@ const char* text_of(Fault fault) {
 
 DVec3 transform_point(const glm::dmat4x3& m, const Vec3& p) { return m * glm::dvec4(DVec3(p), 1); }
 
-using Range = tbb::blocked_range<std::size_t>;
-
-// Ranges are long enough to be worth a task.
-template <class Body>
-void for_each_range(std::size_t count, const Body& body) {
-  tbb::parallel_for(Range(0, count, 4096),
-                    [&](const Range& range) { body(range.begin(), range.end()); });
-}
+// Vertices or triangles that are worth a task.
+constexpr std::size_t grain = 4096;
 
 // The box of the transformed triangles, or `invalid` set where an index is out of range. Unused
 // vertices do not count.
 Bounds bounds_of(const Mesh& mesh, const glm::dmat4x3& world_from_object,
                  std::atomic<bool>& invalid) {
-  return tbb::parallel_reduce(
-      Range(0, mesh.triangles.size(), 4096), Bounds{},
-      [&](const Range& range, Bounds bounds) {
-        for (std::size_t i = range.begin(); i != range.end(); ++i) {
+  return parallel_fold(
+      mesh.triangles.size(), grain, Bounds{},
+      [&](std::size_t first, std::size_t last) {
+        Bounds bounds;
+        for (std::size_t i = first; i < last; ++i) {
           const UVec3& t = mesh.triangles[i];
           for (const std::uint32_t vertex : {t.x, t.y, t.z}) {
             if (vertex >= mesh.positions.size()) {
@@ -75,10 +69,7 @@ Bounds bounds_of(const Mesh& mesh, const glm::dmat4x3& world_from_object,
         }
         return bounds;
       },
-      [](Bounds a, const Bounds& b) {
-        a.extend(b);
-        return a;
-      });
+      [](Bounds& a, const Bounds& b) { a.extend(b); });
 }
 
 // The linear part divided by the power of 2 that bounds it, which changes no direction and keeps
@@ -128,7 +119,7 @@ Fault copy_vertices(const Mesh& mesh, const glm::dmat4x3& world_from_object, con
   const DMat3 normal_matrix{sign * glm::cross(linear[1], linear[2]),
                             sign * glm::cross(linear[2], linear[0]),
                             sign * glm::cross(linear[0], linear[1])};
-  for_each_range(mesh.positions.size(), [&](std::size_t begin, std::size_t end) {
+  parallel_ranges(mesh.positions.size(), grain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i != end; ++i) {
       const std::size_t out = slot.first_position + i;
       const Vec3 p{transform_point(world_from_object, mesh.positions[i]) - world.origin};
@@ -153,7 +144,7 @@ Fault copy_vertices(const Mesh& mesh, const glm::dmat4x3& world_from_object, con
 
 void copy_triangles(const Mesh& mesh, bool mirrored, const Slot& slot, std::uint32_t surface,
                     World& world) {
-  for_each_range(mesh.triangles.size(), [&](std::size_t begin, std::size_t end) {
+  parallel_ranges(mesh.triangles.size(), grain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i != end; ++i) {
       const UVec3 t = mesh.triangles[i] + slot.first_position;
       world.indices[slot.first_triangle + i] = mirrored ? UVec3{t.x, t.z, t.y} : t;
@@ -199,7 +190,7 @@ std::vector<Slot> lay_out(const Scene& scene, World& world) {
 DVec3 center_of(const Scene& scene) {
   std::vector<Bounds> boxes(scene.instances.size());
   std::vector<Fault> faults(scene.instances.size(), Fault::none);
-  tbb::parallel_for(std::size_t{0}, scene.instances.size(), [&](std::size_t i) {
+  parallel_for(scene.instances.size(), 1, [&](std::size_t i) {
     const Instance& instance = scene.instances[i];
     std::atomic<bool> invalid{false};
     boxes[i] = bounds_of(scene.meshes[instance.mesh], instance.world_from_object, invalid);
@@ -246,7 +237,7 @@ World make_world(const Scene& scene) {
   recenter(world);
 
   std::vector<Fault> faults(scene.instances.size(), Fault::none);
-  tbb::parallel_for(std::size_t{0}, scene.instances.size(), [&](std::size_t i) {
+  parallel_for(scene.instances.size(), 1, [&](std::size_t i) {
     const Instance& instance = scene.instances[i];
     const Mesh& mesh = scene.meshes[instance.mesh];
     const bool mirrored = glm::determinant(normalized_linear(instance.world_from_object)) < 0;

@@ -78,7 +78,7 @@ TEST_CASE("Trees hold every triangle once, in tight boxes") {
   }
 }
 
-TEST_CASE("A tree does not depend on the number of threads") {
+TEST_CASE("A tree does not depend on the number of threads", "[threads]") {
   const std::vector<Aabb> boxes = boxes_of(test::random_soup(60000, 0.05F, Vec3{0}, 1));
   const BinaryTree expected = build_tree(std::span<const Aabb>(boxes));
   for (const int threads : {1, 2, 7}) {

@@ -11,10 +11,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// geometry | influence, bvh | accel, scene | render | io | report | cli
+// geometry, parallel | influence, bvh | accel, scene | render | io | report | cli
 const std::map<std::string, int, std::less<>> ranks{
-    {"geometry", 0}, {"influence", 1}, {"bvh", 1},    {"accel", 2}, {"scene", 2},
-    {"render", 3},   {"io", 4},        {"report", 5}, {"cli", 6}};
+    {"geometry", 0}, {"parallel", 0}, {"influence", 1}, {"bvh", 1},    {"accel", 2},
+    {"scene", 2},    {"render", 3},   {"io", 4},        {"report", 5}, {"cli", 6}};
 
 // Include prefixes of third parties, and the path prefixes of the files that may use them.
 struct ThirdParty {
@@ -23,13 +23,12 @@ struct ThirdParty {
 };
 const std::vector<ThirdParty> third_parties{
     {"glm/", {"include/", "src/"}},
-    {"tbb/", {"src/"}},
-    {"oneapi/tbb", {"src/"}},
-    {"OpenImageIO/", {"src/io/", "src/scene/texture"}},
+    {"tbb/", {"src/parallel/", "src/render/render.cpp", "src/cli/render_command.cpp"}},
+    {"OpenImageIO/", {"src/io/image_", "src/scene/texture"}},
     {"yaml-cpp/", {"src/io/"}},
     {"assimp/", {"src/io/"}},
     {"fmt/", {"src/io/", "src/report/", "src/cli/"}},
-    {"nlohmann/", {"src/io/", "src/report/", "src/cli/"}},
+    {"nlohmann/", {"src/io/gltf_file", "src/report/json_value"}},
     {"CLI/", {"src/cli/"}},
     {"embree3/", {"src/accel/"}},
     {"embree4/", {"src/accel/"}},

@@ -90,7 +90,7 @@ TEST_CASE("neither the unit of length nor the place changes the mean") {
   for (const double scale : {1e-6, 1.0, 1e7}) check(scale, DVec3(4e6, -4e6, 4e6) * scale);
 }
 
-TEST_CASE("pictures do not depend on the number of threads") {
+TEST_CASE("pictures do not depend on the number of threads", "[threads]") {
   const Scene scene = room().scene;
   RenderOptions options;
   options.threads = 1;

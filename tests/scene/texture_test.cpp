@@ -18,6 +18,7 @@
 #include "catch.hpp"
 #include "scene/texture_linear_input.hpp"
 #include "scene/texture_store.hpp"
+#include "support/paths.hpp"
 
 using namespace pah;
 namespace fs = std::filesystem;
@@ -30,8 +31,7 @@ constexpr float infinity = std::numeric_limits<float>::infinity();
 class ImageFolder {
  public:
   ImageFolder()
-      : path_(fs::path(PAH_BINARY_DIR) /
-              ("texture-test-" + std::to_string(std::random_device{}()))) {
+      : path_(test::build_folder() / ("texture-test-" + std::to_string(std::random_device{}()))) {
     fs::create_directories(path_);
   }
   ~ImageFolder() {
@@ -371,7 +371,8 @@ TEST_CASE("damaged files are refused or black, never fatal") {
   }
 }
 
-TEST_CASE("look-ups give the same from any number of threads, whatever fits the cache") {
+TEST_CASE("look-ups give the same from any number of threads, whatever fits the cache",
+          "[threads]") {
   const ImageFolder folder;
   const auto noise = [](int x, int y, int c) {
     return static_cast<float>((x * 7919 + y * 104729 + c * 31) % 256) / 255.0F;

@@ -1,0 +1,27 @@
+#include "parallel/parallel_for.hpp"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+#include <tbb/partitioner.h>
+
+#include "parallel/order.hpp"
+
+namespace pah {
+
+void parallel_ranges(std::size_t count, std::size_t grain,
+                     const std::function<void(std::size_t, std::size_t)>& body) {
+  ForkJoinOrder order;
+  order.fork();
+  using Range = tbb::blocked_range<std::size_t>;
+  tbb::parallel_for(
+      Range(0, count, grain),
+      [&](const Range& range) {
+        order.begin_task();
+        body(range.begin(), range.end());
+        order.end_task();
+      },
+      tbb::simple_partitioner());
+  order.join();
+}
+
+}  // namespace pah
