@@ -2,8 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <nlohmann/json.hpp>
 #include <pah/io/image_file.hpp>
+
+#include "report/json_value.hpp"
 
 namespace pah::cli {
 
@@ -11,10 +12,10 @@ ExitCode run_compare(const CompareArguments& arguments) {
   const ImageDifference difference =
       compare_images(read_image(arguments.a), read_image(arguments.b));
   if (arguments.json)
-    fmt::print("{}\n",
-               nlohmann::ordered_json{
-                   {"mse", difference.mse}, {"relmse", difference.relmse}, {"max", difference.max}}
-                   .dump(2));
+    fmt::print(
+        "{}\n",
+        JsonValue{{"mse", difference.mse}, {"relmse", difference.relmse}, {"max", difference.max}}
+            .indented_text());
   else
     fmt::print("mse    {:.6g}\nrelmse {:.6g}\nmax    {:.6g}\n", difference.mse, difference.relmse,
                difference.max);

@@ -1,6 +1,7 @@
 #include "io/gltf_file.hpp"
 
 #include <initializer_list>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
 
@@ -156,8 +157,10 @@ GltfDocument read_gltf_document(const fs::path& file, const fs::path& folder,
   if (!json.is_object()) throw MeshFileError("it is not a glTF document");
   try {
     GltfDocument document;
+    Json nodes = Json::object();
     for (const char* key : {"cameras", "extensions", "nodes", "scenes", "scene"})
-      if (json.contains(key)) document.nodes[key] = json[key];
+      if (json.contains(key)) nodes[key] = json[key];
+    document.nodes = std::make_shared<const Json>(std::move(nodes));
     check_extensions(json);
     clean(json);
     check_gltf(json, container.binary, file, folder, max_bytes);

@@ -4,13 +4,15 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <nlohmann/json.hpp>
+#include <memory>
+#include <nlohmann/json_fwd.hpp>
 #include <pah/io/mesh_file.hpp>
 
 namespace pah {
 
 struct GltfDocument {
-  nlohmann::json nodes = nlohmann::json::object();  // "scenes", "nodes", "cameras", "extensions"
+  // "scenes", "nodes", "cameras", "extensions"; none of a file that is no glTF.
+  std::shared_ptr<const nlohmann::json> nodes;
   std::string cleaned;  // the file again, .gltf or .glb, with what importing needs
 };
 
@@ -21,9 +23,9 @@ struct GltfDocument {
                                               const std::filesystem::path& folder,
                                               std::uint64_t max_bytes);
 
-// Cameras and lights of the document's scene, the first argument being GltfDocument::nodes. glTF's
-// lights are photometric (candela, lux): 683 lm/W turn them into watts. Throws MeshFileError.
-void read_gltf_cameras_and_lights(const nlohmann::json& document, MeshFile& out);
+// Cameras and lights of the document's scene. glTF's lights are photometric (candela, lux): 683
+// lm/W turn them into watts. Throws MeshFileError.
+void read_gltf_cameras_and_lights(const GltfDocument& document, MeshFile& out);
 
 // "%20" is a space, and so on.
 [[nodiscard]] std::string decode_uri(std::string_view uri);

@@ -2,6 +2,7 @@
 
 #include <deque>
 #include <fstream>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/gtc/quaternion.hpp>
+#include <nlohmann/json.hpp>
 #include <numbers>
 #include <pah/scene/placement.hpp>
 #include <string>
@@ -139,7 +140,9 @@ class NodeReader {
 
 }  // namespace
 
-void read_gltf_cameras_and_lights(const Json& document, MeshFile& out) {
+void read_gltf_cameras_and_lights(const GltfDocument& gltf, MeshFile& out) {
+  if (gltf.nodes == nullptr) return;
+  const Json& document = *gltf.nodes;
   try {
     NodeReader reader(document, out);
     const Json& scenes = list(document, "scenes");

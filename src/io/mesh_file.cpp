@@ -56,7 +56,7 @@ class ImportedScene {
   [[nodiscard]] const aiScene& operator*() const { return *scene_; }
   [[nodiscard]] const aiScene* operator->() const { return scene_; }
   // Empty for other formats.
-  [[nodiscard]] const nlohmann::json& gltf() const { return gltf_.nodes; }
+  [[nodiscard]] const GltfDocument& gltf() const { return gltf_; }
 
  private:
   void check(const MeshFileOptions& options) const;

@@ -2,15 +2,13 @@
 
 #include <algorithm>
 #include <bit>
-#include <nlohmann/json.hpp>
 
 #include "bvh/analyze.hpp"
 #include "report/false_colour.hpp"
+#include "report/json_value.hpp"
 
 namespace pah {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 // Numbers of the glTF 2.0 specification.
 enum class Gltf { lines = 1, unsigned_int = 5125, float32 = 5126, array = 34962, elements = 34963 };
@@ -59,7 +57,7 @@ std::string base64(const std::string& bytes) {
   return text;
 }
 
-Json numbers(const Vec3& v) { return {v.x, v.y, v.z}; }
+std::vector<JsonValue> numbers(const Vec3& v) { return {v.x, v.y, v.z}; }
 
 struct Level {
   std::string positions;
@@ -80,27 +78,28 @@ std::vector<Level> levels_of(const BinaryTree& tree, std::uint32_t count) {
   return visit_tree(tree, add, [&] { return std::move(levels); });
 }
 
-Json material(std::size_t level, std::size_t levels) {
+JsonValue material(std::size_t level, std::size_t levels) {
   // Neither black nor white: it is to be seen on both.
   const double value = 0.25 + 0.5 * static_cast<double>(level) /
                                   static_cast<double>(std::max<std::size_t>(levels - 1, 1));
-  Json colour = numbers(false_colour(value));
-  colour.push_back(1);
+  std::vector<JsonValue> colour = numbers(false_colour(value));
+  colour.emplace_back(1);
   return {{"pbrMetallicRoughness", {{"baseColorFactor", colour}, {"metallicFactor", 0}}},
-          {"extensions", {{"KHR_materials_unlit", Json::object()}}}};
+          {"extensions", {{"KHR_materials_unlit", JsonValue::object()}}}};
 }
 
 }  // namespace
 
 std::string boxes_gltf(const BinaryTree& tree, std::uint32_t count, const DVec3& origin) {
   const std::vector<Level> levels = levels_of(tree, count);
-  Json root{{"name", "BVH"}, {"translation", {origin.x, origin.y, origin.z}}};
-  Json json{{"asset", {{"version", "2.0"}, {"generator", "pahrender"}}},
-            {"scene", 0},
-            {"scenes", {{{"nodes", {0}}}}}};
+  using Array = std::vector<JsonValue>;
+  JsonValue root{{"name", "BVH"}, {"translation", Array{origin.x, origin.y, origin.z}}};
+  JsonValue json{{"asset", {{"version", "2.0"}, {"generator", "pahrender"}}},
+                 {"scene", 0},
+                 {"scenes", JsonValue::array({{{"nodes", JsonValue::array({0})}}})}};
   if (levels.empty()) {
-    json["nodes"] = Json::array({root});
-    return json.dump() + "\n";
+    json.set("nodes", JsonValue::array({root}));
+    return json.text() + "\n";
   }
 
   // Edges first: those of n boxes are the first of those of more, so that all levels share them.
@@ -108,9 +107,8 @@ std::string boxes_gltf(const BinaryTree& tree, std::uint32_t count, const DVec3&
   for (const Level& level : levels) most_boxes = std::max(most_boxes, level.boxes);
   std::string bytes;
   for (std::uint32_t box = 0; box < most_boxes; ++box) append_edges(bytes, box);
-  Json views = {{{"buffer", 0}, {"byteLength", bytes.size()}, {"target", number(Gltf::elements)}}};
-  Json nodes = Json::array(), meshes = Json::array(), materials = Json::array();
-  Json accessors = Json::array(), children = Json::array();
+  Array views{{{"buffer", 0}, {"byteLength", bytes.size()}, {"target", number(Gltf::elements)}}};
+  Array nodes, meshes, materials, accessors, children;
   for (std::size_t i = 0; i < levels.size(); ++i) {
     const Level& level = levels[i];
     const std::string name = "level " + std::to_string(i);
@@ -129,27 +127,27 @@ std::string boxes_gltf(const BinaryTree& tree, std::uint32_t count, const DVec3&
                          {"type", "VEC3"},
                          {"min", numbers(level.bounds.min)},
                          {"max", numbers(level.bounds.max)}});
-    const Json primitive{{"attributes", {{"POSITION", 2 * i + 1}}},
-                         {"indices", 2 * i},
-                         {"material", i},
-                         {"mode", number(Gltf::lines)}};
-    meshes.push_back({{"name", name}, {"primitives", Json::array({primitive})}});
+    const JsonValue primitive{{"attributes", {{"POSITION", 2 * i + 1}}},
+                              {"indices", 2 * i},
+                              {"material", i},
+                              {"mode", number(Gltf::lines)}};
+    meshes.push_back({{"name", name}, {"primitives", JsonValue::array({primitive})}});
     materials.push_back(material(i, levels.size()));
     nodes.push_back({{"name", name}, {"mesh", i}});
-    children.push_back(i + 1);
+    children.emplace_back(i + 1);
   }
-  root["children"] = children;
+  root.set("children", children);
   nodes.insert(nodes.begin(), root);
-  json["extensionsUsed"] = {"KHR_materials_unlit"};
-  json["nodes"] = std::move(nodes);
-  json["meshes"] = std::move(meshes);
-  json["materials"] = std::move(materials);
-  json["accessors"] = std::move(accessors);
-  json["bufferViews"] = std::move(views);
-  json["buffers"] =
-      Json::array({{{"byteLength", bytes.size()},
-                    {"uri", "data:application/octet-stream;base64," + base64(bytes)}}});
-  return json.dump() + "\n";
+  json.set("extensionsUsed", JsonValue::array({"KHR_materials_unlit"}));
+  json.set("nodes", nodes);
+  json.set("meshes", meshes);
+  json.set("materials", materials);
+  json.set("accessors", accessors);
+  json.set("bufferViews", views);
+  json.set("buffers",
+           JsonValue::array({{{"byteLength", bytes.size()},
+                              {"uri", "data:application/octet-stream;base64," + base64(bytes)}}}));
+  return json.text() + "\n";
 }
 
 }  // namespace pah

@@ -3,12 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
+
+#include "report/json_value.hpp"
 
 namespace pah {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 std::string format_bytes(std::uint64_t bytes) {
   const auto b = static_cast<double>(bytes);
@@ -74,37 +73,37 @@ std::string bvh_text(const BvhReport& bvh) {
   return text;
 }
 
-Json bvh_json(const BvhReport& bvh) {
+JsonValue bvh_json(const BvhReport& bvh) {
   const TreeSummary& tree = bvh.tree;
-  Json sizes = Json::array();
+  JsonValue sizes = JsonValue::array();
   for (std::size_t size = 1; size < tree.leaf_sizes.size(); ++size)
     sizes.push_back({{"triangles", size}, {"leaves", tree.leaf_sizes[size]}});
-  Json levels = Json::array();
+  JsonValue levels = JsonValue::array();
   for (const TreeLevel& level : tree.levels)
     levels.push_back(
         {{"nodes", level.nodes}, {"leaves", level.leaves}, {"overlap", level.overlap}});
-  Json json{{"name", bvh.name},
-            {"heuristic", bvh.heuristic},
-            {"triangles", tree.triangles},
-            {"nodes", tree.nodes},
-            {"leaves", tree.leaves},
-            {"wide_nodes", bvh.wide_nodes},
-            {"depth", {{"max", tree.max_depth}, {"mean", tree.mean_depth}}},
-            {"expected_cost", tree.expected_cost},
-            {"overlap", tree.overlap},
-            {"memory_bytes", bvh.memory_bytes},
-            {"build_seconds", bvh.build_seconds},
-            {"leaf_sizes", std::move(sizes)},
-            {"levels", std::move(levels)}};
+  JsonValue json{{"name", bvh.name},
+                 {"heuristic", bvh.heuristic},
+                 {"triangles", tree.triangles},
+                 {"nodes", tree.nodes},
+                 {"leaves", tree.leaves},
+                 {"wide_nodes", bvh.wide_nodes},
+                 {"depth", {{"max", tree.max_depth}, {"mean", tree.mean_depth}}},
+                 {"expected_cost", tree.expected_cost},
+                 {"overlap", tree.overlap},
+                 {"memory_bytes", bvh.memory_bytes},
+                 {"build_seconds", bvh.build_seconds},
+                 {"leaf_sizes", std::move(sizes)},
+                 {"levels", std::move(levels)}};
   if (const auto& bundle = bvh.bundle)
-    json["bundle_cost"] = {{"local", bundle->local}, {"global", bundle->global}};
+    json.set("bundle_cost", {{"local", bundle->local}, {"global", bundle->global}});
   if (const auto& rays = bvh.camera_rays)
-    json["camera_rays"] = {{"rays", rays->rays},
-                           {"hits", rays->hits},
-                           {"nodes_per_ray", rays->nodes_per_ray},
-                           {"triangles_per_ray", rays->triangles_per_ray},
-                           {"max_nodes", rays->max_nodes},
-                           {"max_triangles", rays->max_triangles}};
+    json.set("camera_rays", {{"rays", rays->rays},
+                             {"hits", rays->hits},
+                             {"nodes_per_ray", rays->nodes_per_ray},
+                             {"triangles_per_ray", rays->triangles_per_ray},
+                             {"max_nodes", rays->max_nodes},
+                             {"max_triangles", rays->max_triangles}});
   return json;
 }
 
@@ -118,11 +117,12 @@ std::string inspect_text(const InspectReport& report) {
 }
 
 std::string inspect_json(const InspectReport& report) {
-  Json json{{"version", report.version}, {"scene", report.scene},         {"width", report.width},
-            {"height", report.height},   {"triangles", report.triangles}, {"bvhs", Json::array()}};
-  for (const BvhReport& bvh : report.bvhs) json["bvhs"].push_back(bvh_json(bvh));
-  // A scene's name may hold any bytes.
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  JsonValue bvhs = JsonValue::array();
+  for (const BvhReport& bvh : report.bvhs) bvhs.push_back(bvh_json(bvh));
+  const JsonValue json{{"version", report.version},     {"scene", report.scene},
+                       {"width", report.width},         {"height", report.height},
+                       {"triangles", report.triangles}, {"bvhs", bvhs}};
+  return json.indented_text() + "\n";
 }
 
 std::string inspect_csv(const InspectReport& report) {

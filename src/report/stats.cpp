@@ -2,22 +2,20 @@
 
 #include <sys/resource.h>
 
-#include <nlohmann/json.hpp>
+#include "report/json_value.hpp"
 
 namespace pah {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 template <typename Value>
-Json by_ray_kind(const Value& value) {
-  Json json = Json::object();
+JsonValue by_ray_kind(const Value& value) {
+  JsonValue json = JsonValue::object();
   for (std::size_t kind = 0; kind < ray_kind_names.size(); ++kind)
-    json[ray_kind_names[kind]] = value(kind);
+    json.set(ray_kind_names[kind], value(kind));
   return json;
 }
 
-Json traversal_json(const RenderCounts& counts) {
+JsonValue traversal_json(const RenderCounts& counts) {
   const auto per_ray = [&](std::uint64_t TraversalCounts::*member) {
     return by_ray_kind([&, member](std::size_t kind) {
       const auto rays = counts.rays[kind];
@@ -30,13 +28,8 @@ Json traversal_json(const RenderCounts& counts) {
           {"triangles_per_ray", per_ray(&TraversalCounts::triangles)}};
 }
 
-template <typename Number>
-Json number_or_null(const std::optional<Number>& number) {
-  return number ? Json(*number) : Json();
-}
-
-Json areas_json(const std::vector<AreaReport>& areas) {
-  Json json = Json::array();
+JsonValue areas_json(const std::vector<AreaReport>& areas) {
+  JsonValue json = JsonValue::array();
   for (const AreaReport& area : areas)
     json.push_back({{"name", area.name},
                     {"type", area.type},
@@ -44,10 +37,10 @@ Json areas_json(const std::vector<AreaReport>& areas) {
                     {"triangles", area.triangles},
                     {"built", area.built},
                     {"reason", area.reason},
-                    {"predicted_cost", number_or_null(area.predicted_cost)},
-                    {"measured_cost", number_or_null(area.measured_cost)},
-                    {"global_cost", number_or_null(area.global_cost)},
-                    {"rays", number_or_null(area.rays)}});
+                    {"predicted_cost", area.predicted_cost},
+                    {"measured_cost", area.measured_cost},
+                    {"global_cost", area.global_cost},
+                    {"rays", area.rays}});
   return json;
 }
 
@@ -65,7 +58,7 @@ std::uint64_t peak_memory_bytes() {
 
 std::string stats_json(const RenderReport& report) {
   const AcceleratorMemory& structures = report.accelerator_bytes;
-  const Json json{
+  const JsonValue json{
       {"version", report.version},
       {"scene", report.scene},
       {"width", report.width},
@@ -93,11 +86,10 @@ std::string stats_json(const RenderReport& report) {
       {"error",
        {{"mse", report.error.mse},
         {"relmse", report.error.relmse},
-        {"confidence95", Json::array({report.error.low, report.error.high})}}},
+        {"confidence95", JsonValue::array({report.error.low, report.error.high})}}},
       {"nan_samples", report.counts.nan_samples},
   };
-  // A scene's name may hold any bytes.
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return json.indented_text() + "\n";
 }
 
 }  // namespace pah

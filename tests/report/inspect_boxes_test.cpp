@@ -97,7 +97,9 @@ TEST_CASE("Files of boxes pass the checks of glTF files") {
   const TemporaryFolder folder;
   const auto nodes = [&](const BinaryTree& tree, std::uint32_t levels) {
     std::ofstream(folder / "boxes.gltf") << boxes_gltf(tree, levels, DVec3{0});
-    return read_gltf_document(folder / "boxes.gltf", folder.path(), 1 << 20).nodes["nodes"].size();
+    return read_gltf_document(folder / "boxes.gltf", folder.path(), 1 << 20)
+        .nodes->at("nodes")
+        .size();
   };
   for (const std::uint32_t levels : {1U, 2U, 3U, 80U})
     CHECK(nodes(test::hand_made_tree(), levels) == 1 + std::min(levels, 3U));
