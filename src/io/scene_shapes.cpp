@@ -1,6 +1,6 @@
 #include "io/scene_shapes.hpp"
 
-#include <OpenImageIO/imageio.h>
+#include "io/image_header.hpp"
 
 namespace pah {
 namespace {
@@ -59,21 +59,23 @@ bool read_height_image(SceneReading& reading, MapReader& map, const YamlNode& no
     map.error("image", "image '" + file->filename().string() + "' " + message);
     return false;
   };
-  const auto input = OIIO::ImageInput::open(file->string());
-  if (input == nullptr) {
-    (void)OIIO::geterror();
+  ImageHeader header;
+  try {
+    header = read_image_header(*file);
+  } catch (const FileError&) {
     return fail("cannot be read");
   }
-  const OIIO::ImageSpec& spec = input->spec();
-  if (spec.width < 2 || spec.height < 2 || spec.nchannels < 1 ||
-      spec.image_pixels() > most_heights / 2 || spec.image_pixels() * 2 > reading.limits.triangles)
-    return fail("has " + std::to_string(spec.width) + " x " + std::to_string(spec.height) +
+  if (header.width < 2 || header.height < 2 || header.channels < 1 ||
+      header.pixels > most_heights / 2 || header.pixels * 2 > reading.limits.triangles)
+    return fail("has " + std::to_string(header.width) + " x " + std::to_string(header.height) +
                 " pixels: too few or too many for heights");
-  shape.columns = spec.width;
-  shape.rows = spec.height;
-  shape.heights.resize(spec.image_pixels());
-  if (!input->read_image(0, 0, 0, 1, OIIO::TypeDesc::FLOAT, shape.heights.data()))
-    return fail("cannot be read: " + input->geterror());
+  shape.columns = header.width;
+  shape.rows = header.height;
+  try {
+    shape.heights = read_first_channel(*file);
+  } catch (const FileError& error) {
+    return fail("cannot be read: " + std::string(error.what()));
+  }
   return true;
 }
 

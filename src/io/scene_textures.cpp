@@ -1,8 +1,7 @@
 // The textures section, and colours and scalars that a texture may stand for.
-#include <OpenImageIO/imageio.h>
-
 #include <cmath>
 
+#include "io/image_header.hpp"
 #include "io/scene_reading.hpp"
 
 namespace pah {
@@ -110,22 +109,23 @@ bool parse_hex_color(const std::string& text, Vec3& value) {
 // The decoded size comes from the header alone: nothing is decoded here.
 bool check_image(SceneReading& reading, const Mark& mark, const std::filesystem::path& file) {
   const std::string shown = "image '" + file.filename().string() + "'";
-  const auto input = OIIO::ImageInput::open(file.string());
-  if (input == nullptr) {
-    std::string why = OIIO::geterror();
+  ImageHeader header;
+  try {
+    header = read_image_header(file);
+  } catch (const FileError& error) {
+    std::string why = error.what();
     if (const std::size_t end = why.find('\n'); end != std::string::npos) why.resize(end);
     if (const std::size_t at = why.find(file.string()); at != std::string::npos)
       why.replace(at, file.string().size(), file.filename().string());
     reading.context.errors.add(mark, "cannot read " + shown + (why.empty() ? "" : ": " + why));
     return false;
   }
-  const OIIO::ImageSpec& spec = input->spec();
-  if (spec.width < 1 || spec.height < 1 || spec.nchannels < 1 || spec.depth > 1) {
+  if (header.width < 1 || header.height < 1 || header.channels < 1 || header.depth > 1) {
     reading.context.errors.add(mark, shown + " is not a picture");
     return false;
   }
-  if (spec.image_bytes() > reading.limits.image_bytes) {
-    reading.context.errors.add(mark, shown + " takes " + std::to_string(spec.image_bytes()) +
+  if (header.bytes > reading.limits.image_bytes) {
+    reading.context.errors.add(mark, shown + " takes " + std::to_string(header.bytes) +
                                          " bytes; the limit is " +
                                          std::to_string(reading.limits.image_bytes));
     return false;
