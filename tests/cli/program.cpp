@@ -15,6 +15,8 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "support/paths.hpp"
+
 namespace pah::testing {
 
 namespace fs = std::filesystem;
@@ -51,7 +53,7 @@ std::string read_file(const std::string& name) {
 }
 
 Program::Program(const std::vector<std::string>& arguments, ErrorStream stream) {
-  std::vector<std::string> words{PAHRENDER};
+  std::vector<std::string> words{test::program()};
   words.insert(words.end(), arguments.begin(), arguments.end());
   std::vector<char*> pointers;
   for (std::string& word : words) pointers.push_back(word.data());

@@ -3,16 +3,23 @@
 
 #include "catch.hpp"
 #include "program.hpp"
+#include "support/paths.hpp"
 #include "support/temporary_folder.hpp"
 
 using namespace pah::testing;
 using pah::CurrentTemporaryFolder;
 
+namespace {
+
+const std::string knot = pah::test::source_folder() / "scenes" / "meshes" / "knot.obj";
+
+}  // namespace
+
 TEST_CASE("study writes its tables and its report") {
   const CurrentTemporaryFolder folder;
   write_file("small.yaml", small_scene);
-  const Outcome outcome = run({"study", PAH_SOURCE_DIR "/scenes/meshes/knot.obj", "small.yaml",
-                               "-o", "made/here", "--quick", "--rays", "500"});
+  const Outcome outcome =
+      run({"study", knot, "small.yaml", "-o", "made/here", "--quick", "--rays", "500"});
   CHECK(outcome.exit_code == 0);
   CHECK(outcome.out.empty());
   for (const char* name : {"prediction.csv", "cost.csv", "build.csv", "sweep.csv", "report.md",
@@ -33,7 +40,6 @@ TEST_CASE("study says what it cannot study") {
   write_file("bad.yaml", "camera: 7\n");
   write_file("point.obj", "v 1 1 1\nv 1 1 1\nv 1 1 1\nf 1 2 3\n");
   write_file("taken", "a file");
-  const std::string good = PAH_SOURCE_DIR "/scenes/meshes/knot.obj";
   const Outcome bad = run({"study", "bad.obj", "bad.yaml", "-o", "out"});
   CHECK(bad.exit_code == 3);
   CHECK(bad.err.find("bad.obj") != std::string::npos);
@@ -41,10 +47,10 @@ TEST_CASE("study says what it cannot study") {
   CHECK(run({"study", "point.obj", "-o", "out"}).exit_code == 3);
   CHECK(run({"study", "missing.obj", "-o", "out"}).exit_code == 4);
   CHECK(run({"study", "missing.yaml", "-o", "out"}).exit_code == 4);
-  CHECK(run({"study", good, "-o", "taken"}).exit_code == 4);
-  CHECK(run({"study", good, "-o", "taken/under"}).exit_code == 4);
+  CHECK(run({"study", knot, "-o", "taken"}).exit_code == 4);
+  CHECK(run({"study", knot, "-o", "taken/under"}).exit_code == 4);
   CHECK(run({"study", "-o", "out"}).exit_code == 2);
-  CHECK(run({"study", good}).exit_code == 2);
+  CHECK(run({"study", knot}).exit_code == 2);
   CHECK(run({"study", "taken", "-o", "out"}).exit_code == 2);
-  CHECK(run({"study", good, "-o", "out", "--rays", "0"}).exit_code == 2);
+  CHECK(run({"study", knot, "-o", "out", "--rays", "0"}).exit_code == 2);
 }

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <pah/io/image_file.hpp>
 
+#include "support/paths.hpp"
+
 namespace pah::golden {
 namespace {
 
@@ -16,7 +18,7 @@ Vec3 shade(double p, double level) {
 
 std::filesystem::path write_failure(const std::string& name, const Batches& reference,
                                     const Batches& picture, const Comparison& comparison) {
-  const std::filesystem::path folder = std::filesystem::path(PAH_BINARY_DIR) / "golden_failures";
+  const std::filesystem::path folder = test::build_folder() / "golden_failures";
   std::filesystem::create_directories(folder);
   Image image{picture.width(), picture.height(), {}};
   Image difference = image, p_values = image;

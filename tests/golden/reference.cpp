@@ -5,10 +5,12 @@
 
 #include <pah/io/image_file.hpp>
 
+#include "support/paths.hpp"
+
 namespace pah::golden {
 namespace {
 
-const std::filesystem::path folder = std::filesystem::path(PAH_SOURCE_DIR) / "golden";
+const std::filesystem::path folder = test::source_folder() / "golden";
 
 Image to_image(const Batches& batches, const std::vector<DVec3>& pixels) {
   return {batches.width(), batches.height(), {pixels.begin(), pixels.end()}};

@@ -9,6 +9,7 @@
 #include "io/scene_language.hpp"
 #include "json_schema.hpp"
 #include "scene_testing.hpp"
+#include "support/paths.hpp"
 
 using namespace pah;
 using Json = nlohmann::json;
@@ -17,7 +18,7 @@ namespace {
 
 const Json& schema() {
   static const Json json =
-      Json::parse(std::ifstream(PAH_SOURCE_DIR "/scenes/pahrender.schema.json"));
+      Json::parse(std::ifstream(test::source_folder() / "scenes" / "pahrender.schema.json"));
   return json;
 }
 
