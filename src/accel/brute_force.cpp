@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 #include <pah/accel/accelerator.hpp>
 

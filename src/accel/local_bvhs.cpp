@@ -11,6 +11,7 @@
 #include <atomic>
 #include <numeric>
 #include <pah/accel/local_bvhs.hpp>
+#include <utility>
 
 #include "accel/batch.hpp"
 #include "accel/build_local.hpp"
@@ -73,7 +74,7 @@ class LocalBvhsOverGlobal final : public LocalBvhs {
     global_ = std::move(global.bvh);
     order_.resize(areas_.size());
     std::iota(order_.begin(), order_.end(), 0U);
-    std::ranges::stable_sort(order_, {}, [&](std::uint32_t i) { return bundle_of(i); });
+    std::ranges::sort(order_, {}, [&](std::uint32_t i) { return std::pair(bundle_of(i), i); });
   }
 
   void closest_hit(std::span<const Ray> rays, std::span<Hit> hits,
@@ -174,9 +175,10 @@ class LocalBvhsOverGlobal final : public LocalBvhs {
 
   // The first area of the ray's bundle that holds its origin.
   [[nodiscard]] Assignment assign(const Ray& ray, const PreparedRay& prepared) const {
-    const auto [first, last] = std::ranges::equal_range(
-        order_, ray.bundle, {}, [&](std::uint32_t i) { return bundle_of(i); });
-    for (auto i = first; i != last; ++i) {
+    const auto first = std::lower_bound(
+        order_.begin(), order_.end(), ray.bundle,
+        [&](std::uint32_t i, std::uint32_t bundle) { return bundle_of(i) < bundle; });
+    for (auto i = first; i != order_.end() && bundle_of(*i) == ray.bundle; ++i) {
       if (const auto reach = areas_[*i].reach(ray, prepared, bounds_)) return {*i, *reach};
     }
     return {};

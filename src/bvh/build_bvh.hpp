@@ -1,6 +1,8 @@
 // From triangles to what is traversed, by any heuristic.
 #pragma once
 
+#include <algorithm>
+
 #include "bvh/build.hpp"
 #include "bvh/bvh.hpp"
 

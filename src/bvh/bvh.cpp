@@ -1,5 +1,6 @@
 #include "bvh/bvh.hpp"
 
+#include <algorithm>
 #include <limits>
 
 namespace pah {

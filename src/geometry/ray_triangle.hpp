@@ -26,6 +26,7 @@
 // function with opposite signs and the same digits, hence no crack.
 #pragma once
 
+#include <algorithm>
 #include <pah/geometry/triangles.hpp>
 
 #include "geometry/ray_box.hpp"

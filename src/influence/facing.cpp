@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <pah/influence/facing.hpp>
+#include <utility>
 
 namespace pah {
 
@@ -12,7 +13,7 @@ DVec3 facing_quality(const DVec3& v) {
 std::array<int, 3> facing_axis_order(const DVec3& v) {
   const DVec3 size = glm::abs(v);
   std::array<int, 3> order{0, 1, 2};
-  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return size[a] < size[b]; });
+  std::ranges::sort(order, {}, [&](int axis) { return std::pair(size[axis], axis); });
   return order;
 }
 

@@ -1,5 +1,6 @@
 #include "io/gltf_file.hpp"
 
+#include <algorithm>
 #include <initializer_list>
 #include <nlohmann/json.hpp>
 #include <string>

@@ -1,4 +1,5 @@
 // Camera, film and render sections.
+#include <algorithm>
 #include <cmath>
 
 #include "io/scene_reading.hpp"
@@ -120,11 +121,11 @@ void read_film(SceneReading& reading, const YamlNode* node) {
   constexpr int most_pixels = 65536;  // across
   FilmSettings& film = reading.scene.film;
   read_map(reading.context, node, "film", "film", [&](MapReader& map) {
-    const bool sized = map.optional("width", film.width, 1, most_pixels) |
-                       map.optional("height", film.height, 1, most_pixels);
+    const bool has_width = map.optional("width", film.width, 1, most_pixels);
+    const bool has_height = map.optional("height", film.height, 1, most_pixels);
     const std::uint64_t pixels =
         static_cast<std::uint64_t>(film.width) * static_cast<std::uint64_t>(film.height);
-    if (sized && pixels > reading.limits.film_pixels)
+    if ((has_width || has_height) && pixels > reading.limits.film_pixels)
       map.error("width", "a film of " + std::to_string(film.width) + " x " +
                              std::to_string(film.height) + " pixels is larger than the limit of " +
                              std::to_string(reading.limits.film_pixels) + " pixels");

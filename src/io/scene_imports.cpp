@@ -1,5 +1,6 @@
 #include "io/scene_imports.hpp"
 
+#include <algorithm>
 #include <type_traits>
 
 #include "io/mesh_file_access.hpp"

@@ -1,4 +1,5 @@
 // Where the copies of a mesh stand.
+#include <algorithm>
 #include <pah/scene/placement.hpp>
 
 #include "io/scene_reading.hpp"
@@ -51,8 +52,9 @@ Transforms read_repeat(SceneReading& reading, const YamlNode* node, const std::s
                  bool valid = true;
                  if (type == 0) {
                    LineRepeat line;
-                   valid = map.required("count", line.count, 1U, most_copies) &
-                           map.required("step", line.step);
+                   const bool has_count = map.required("count", line.count, 1U, most_copies);
+                   const bool has_step = map.required("step", line.step);
+                   valid = has_count && has_step;
                    repeat = line;
                  } else if (type == 1) {
                    GridRepeat grid;

@@ -1,6 +1,7 @@
 #include "io/yaml_errors.hpp"
 
 #include <algorithm>
+#include <list>
 #include <tuple>
 
 namespace pah {
@@ -39,16 +40,15 @@ LocatedError ErrorCollector::locate(const YamlFault& error, std::string_view lin
 
 std::vector<LocatedError> ErrorCollector::located() const {
   // Those of the file first, then those of the overrides in their order.
-  std::vector<YamlFault> sorted = errors_;
+  std::list<YamlFault> sorted(errors_.begin(), errors_.end());
   const auto key = [](const YamlFault& e) {
     return std::tie(e.mark.override_index, e.mark.line, e.mark.column);
   };
-  std::stable_sort(sorted.begin(), sorted.end(),
-                   [&](const YamlFault& a, const YamlFault& b) { return key(a) < key(b); });
+  sorted.sort([&](const YamlFault& a, const YamlFault& b) { return key(a) < key(b); });
   const auto same = [&](const YamlFault& a, const YamlFault& b) {
     return key(a) == key(b) && a.message == b.message;
   };
-  sorted.erase(std::unique(sorted.begin(), sorted.end(), same), sorted.end());
+  sorted.unique(same);
 
   std::vector<LocatedError> result;
   int line_number = 1;

@@ -264,7 +264,11 @@ YamlError syntax_error(const YAML::Exception& error, std::string_view text, int 
   }
   const bool open_quote =
       error.msg == YAML::ErrorMsg::DOC_IN_SCALAR || error.msg == YAML::ErrorMsg::EOF_IN_SCALAR;
-  return {mark, open_quote ? "a quoted text does not end" : "not valid YAML: " + error.msg};
+  if (open_quote) return {mark, "a quoted text does not end"};
+  // yaml-cpp 0.8 appends the anchor's name, which the excerpt shows.
+  const bool unknown_anchor = error.msg.starts_with(YAML::ErrorMsg::UNKNOWN_ANCHOR);
+  return {mark, "not valid YAML: " +
+                    (unknown_anchor ? "the referenced anchor is not defined" : error.msg)};
 }
 
 }  // namespace

@@ -164,7 +164,7 @@ class SystemPool {
 
 struct TextureStore::Impl {
   struct GiveBack {
-    void operator()(OIIO::TextureSystem* system) const { SystemPool::instance().give_back(system); }
+    void operator()(OIIO::TextureSystem* used) const { SystemPool::instance().give_back(used); }
   };
 
   TextureOptions options;

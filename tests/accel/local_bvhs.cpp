@@ -1,4 +1,5 @@
 // Local BVHs answer like brute force, whatever the areas are declared to be.
+#include <algorithm>
 #include <pah/accel/local_bvhs.hpp>
 
 #include "catch.hpp"

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <pah/io/image_file.hpp>
 #include <sstream>

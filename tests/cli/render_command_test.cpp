@@ -228,7 +228,7 @@ TEST_CASE("switch --threads and --accel do as they say, and never change a pixel
     }
 }
 
-TEST_CASE("a declared influence area is built and measured; --accel bvh and off leave it out") {
+TEST_CASE("a declared influence area is built and measured, and left out by --accel bvh and off") {
   const CurrentTemporaryFolder folder;
   write_file("scene.yaml", std::string(small_scene) +
                                "influence_areas: [auto, {type: point, light: bulb, fov: [120, 120],"

@@ -1,6 +1,7 @@
 // Slab test against exact integer arithmetic.
 #include "geometry/ray_box.hpp"
 
+#include <algorithm>
 #include <array>
 
 #include "catch.hpp"

@@ -1,6 +1,7 @@
 // The shared hit rule: watertight, never outside the triangle, exactly scale-invariant.
 #include "geometry/ray_triangle.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 

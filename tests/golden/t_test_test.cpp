@@ -1,4 +1,5 @@
 // The test itself, tested: known values, its false alarms and its power.
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <random>

@@ -1,4 +1,5 @@
 // What influence areas say of their bundles, against rays cast at random.
+#include <algorithm>
 #include <pah/influence/box_sectors.hpp>
 #include <pah/influence/bundle_area.hpp>
 #include <pah/influence/facing.hpp>

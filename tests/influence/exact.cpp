@@ -5,7 +5,9 @@
 #include <CGAL/Polygon_2.h>
 #include <CGAL/convex_hull_2.h>
 
-namespace exact {
+#include <algorithm>
+
+namespace exact_answer {
 
 namespace {
 
@@ -285,4 +287,4 @@ double overlap_area(const ConvexPolygon& a, const ConvexPolygon& b) {
   return CGAL::to_double(sum);
 }
 
-}  // namespace exact
+}  // namespace exact_answer

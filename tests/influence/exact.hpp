@@ -5,7 +5,7 @@
 #include <pah/influence/box_sectors.hpp>
 #include <pah/influence/influence_area.hpp>
 
-namespace exact {
+namespace exact_answer {
 
 // Whether the corners, in this order, are the counter-clockwise convex hull of the whole box as the
 // area projects it. Every corner must be before the eye. Collinear corners are allowed.
@@ -26,4 +26,4 @@ double area(const pah::ConvexPolygon& polygon);
 // Polygons without area or with repeated vertices are cleaned first: CGAL takes simple ones only.
 double overlap_area(const pah::ConvexPolygon& a, const pah::ConvexPolygon& b);
 
-}  // namespace exact
+}  // namespace exact_answer

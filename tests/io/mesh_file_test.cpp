@@ -323,7 +323,7 @@ TEST_CASE("OBJ: materials") {
   CHECK(read_mesh(file).triangles.size() == 4);
 
   std::filesystem::remove(folder / "maps/wood.png");
-  CHECK_THROWS_WITH(read_mesh_file(file), Catch::Contains("there is no image 'maps/wood.png'"));
+  CHECK_THROWS_WITH(read_mesh_file(file), contains_text("there is no image 'maps/wood.png'"));
 }
 
 TEST_CASE("OBJ: materials that begin with no name") {
@@ -343,7 +343,7 @@ TEST_CASE("no file outside of the folder is opened") {
   const std::string body = tetrahedron_positions + "usemtl red\n" + tetrahedron_faces;
   const auto file = write(folder, "scene/a.obj", "mtllib ../out.mtl\n" + body);
   CHECK(read_mesh(file).triangles.size() == 4);
-  CHECK_THROWS_WITH(read_mesh_file(file), Catch::Contains("'out.mtl' outside"));
+  CHECK_THROWS_WITH(read_mesh_file(file), contains_text("'out.mtl' outside"));
   MeshFileOptions options;
   options.folder = folder.path();
   CHECK(std::get<DiffuseMaterial>(read_mesh_file(file, options).materials.back().model)
@@ -351,5 +351,5 @@ TEST_CASE("no file outside of the folder is opened") {
   write(folder, "scene/a.mtl", "newmtl red\nmap_Kd ../out.png\n");
   write(folder, "scene/b.obj", "mtllib a.mtl\n" + body);
   CHECK_THROWS_WITH(read_mesh_file(folder / "scene/b.obj"),
-                    Catch::Contains("'../out.png' lies outside"));
+                    contains_text("'../out.png' lies outside"));
 }

@@ -1,4 +1,5 @@
 // Scenes that do not load: what is said, and of which place.
+#include <algorithm>
 #include <pah/io/load_scene.hpp>
 
 #include "catch.hpp"

@@ -1,5 +1,7 @@
 // A white diffuse floor under one light: what it reflects is its irradiance over pi, and that has a
 // closed form. A million samples each.
+#include <algorithm>
+
 #include "analytic_scenes.hpp"
 #include "catch.hpp"
 

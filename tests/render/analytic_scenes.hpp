@@ -1,6 +1,7 @@
 // Small scenes with known answers, and the statistics to judge them by.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 #include <memory>

@@ -1,4 +1,6 @@
 // Every BSDF draws the directions whose density it states.
+#include <algorithm>
+
 #include "bsdf_cases.hpp"
 #include "catch.hpp"
 #include "chi_square.hpp"

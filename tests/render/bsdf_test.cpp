@@ -1,5 +1,6 @@
 #include "render/bsdf.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 

@@ -1,4 +1,5 @@
 // The samplers of lights against their densities, and the choice among many.
+#include <algorithm>
 #include <functional>
 #include <random>
 

@@ -1,4 +1,5 @@
 // Leaving and reaching surfaces without meeting them again, and shading normals.
+#include <algorithm>
 #include <random>
 
 #include "analytic_scenes.hpp"

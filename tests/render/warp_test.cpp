@@ -1,5 +1,6 @@
 #include "render/warp.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <glm/gtc/constants.hpp>
 

@@ -1,4 +1,5 @@
 // Boxes as glTF: read back by hand, and by the checks that mesh files go through.
+#include <algorithm>
 #include <cstring>
 #include <fstream>
 #include <nlohmann/json.hpp>

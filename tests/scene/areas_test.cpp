@@ -1,4 +1,5 @@
 // Derived areas hold the rays that they are for; declared ones are where they were declared.
+#include <algorithm>
 #include <pah/scene/areas.hpp>
 #include <pah/scene/shapes.hpp>
 #include <random>

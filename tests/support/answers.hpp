@@ -26,9 +26,7 @@ struct Answers {
 
 inline Answers ask(const Accelerator& accelerator, const std::vector<Ray>& rays,
                    TraversalCounts* counts = nullptr) {
-  Answers answers;
-  answers.hits.resize(rays.size());
-  answers.occluded.resize(rays.size());
+  Answers answers{std::vector<Hit>(rays.size()), std::vector<std::uint8_t>(rays.size())};
   accelerator.closest_hit(rays, answers.hits, counts);
   accelerator.occluded(rays, answers.occluded, counts);
   return answers;
