@@ -13,7 +13,8 @@
 namespace pah::bench {
 namespace {
 
-constexpr double room = 8;  // the side of the floor, metres
+constexpr double room = 8;   // the side of the floor, metres
+constexpr double stage = 4;  // of what most spots of many_spots.yaml light
 
 struct Draw {
   LitPoint at;
@@ -21,12 +22,12 @@ struct Draw {
   Vec2 u2;
 };
 
-// Points all over the floor.
-std::vector<Draw> draws(const World& world) {
+// Points all over a square of the floor.
+std::vector<Draw> draws(const World& world, double side) {
   std::vector<Draw> made;
   for (std::uint32_t i = 0; i < 1024; ++i) {
     Sampler sampler(0, 0, i, 1);
-    const DVec2 at = room * (DVec2(sampler.next_2d()) - 0.5);
+    const DVec2 at = side * (DVec2(sampler.next_2d()) - 0.5);
     Draw draw;
     draw.at = {Vec3(DVec3(at.x, 0, at.y) - world.origin), {0, 1, 0}, false};
     draw.u = sampler.next_1d();
@@ -40,6 +41,7 @@ std::vector<Draw> draws(const World& world) {
 World world_with(const Light& light) {
   Scene scene;
   scene.materials.emplace_back();
+  scene.textures = {ImageTexture{PAH_SOURCE_DIR "/scenes/textures/marble.png"}};
   scene.lights = {light};
   scene.meshes = {make_mesh(RectangleShape{{room, room}}), make_mesh(RectangleShape{{1, 1}})};
   scene.instances.emplace_back();
@@ -52,8 +54,7 @@ World world_with(const Light& light) {
 
 // `draw_one` takes a Draw and gives an optional.
 template <typename DrawOne>
-void measure(benchmark::State& state, const World& world, const DrawOne& draw_one) {
-  const std::vector<Draw> all = draws(world);
+void measure(benchmark::State& state, const std::vector<Draw>& all, const DrawOne& draw_one) {
   for (auto _ : state) {
     for (const Draw& draw : all) {
       auto drawn = draw_one(draw);
@@ -69,15 +70,16 @@ void measure(benchmark::State& state, const World& world, const DrawOne& draw_on
 
 void measure_sample(benchmark::State& state, const Light& light) {
   const World world = world_with(light);
-  const Lights lights(world, TextureStore({}));
-  measure(state, world,
+  const Lights lights(world, TextureStore(world.textures));
+  measure(state, draws(world, room),
           [&](const Draw& draw) { return lights.sample(0, draw.at, draw.u, draw.u2); });
 }
 
 void measure_choice(benchmark::State& state, const std::string& scene_file) {
   const World world = make_world(load_scene(scene_file).scene);
   const Lights lights(world, TextureStore(world.textures));
-  measure(state, world, [&](const Draw& draw) { return lights.sampler().choose(draw.at, draw.u); });
+  measure(state, draws(world, stage),
+          [&](const Draw& draw) { return lights.sampler().choose(draw.at, draw.u); });
   state.counters["lights"] = static_cast<double>(lights.size());
 }
 
@@ -91,6 +93,7 @@ void register_lights() {
       {"sun", DirectionalLight{{-1, -2, -1}, Vec3{1}, 0.53}},
       {"area", AreaLight{}},
       {"environment", EnvironmentLight{}},
+      {"environment_image", EnvironmentLight{Vec3{1}, 0}},
   };
   for (const Light& light : kinds) {
     benchmark::RegisterBenchmark(

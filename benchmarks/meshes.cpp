@@ -65,7 +65,7 @@ void add_shapes(Scene& scene) {
 
 Scene scene_with(const std::string& mesh) {
   Scene scene;
-  scene.camera = PerspectiveCamera{{1.7, 1.8, 3.6}, {0, 1, 0}, {0, 1, 0}, 38, 0, {}};
+  scene.camera = PerspectiveCamera{{1.7, 1.8, 3.6}, {0, 0.9, 0}, {0, 1, 0}, 28, 0, {}};
   scene.film.width = scene.film.height = 128;
   scene.render.samples = 8;
   scene.render.max_depth = 4;
@@ -76,7 +76,7 @@ Scene scene_with(const std::string& mesh) {
   scene.influence_areas.declared = {
       PointAreaDeclaration{"bulb", {1.6, -2.2, -2.2}, {60, 60}, 0, 10},
       PlaneAreaDeclaration{"sun", {1.6, 4.2, 1.6}, {-1, -2, -1}, {3.6, 3.6}, 8}};
-  scene.meshes.push_back(make_mesh(RectangleShape{{24, 24}}));
+  scene.meshes.push_back(make_mesh(RectangleShape{{8, 8}}));
   scene.instances.emplace_back();
   if (mesh == shapes) {
     add_shapes(scene);
