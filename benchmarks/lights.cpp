@@ -14,7 +14,7 @@ namespace pah::bench {
 namespace {
 
 constexpr double room = 8;   // the side of the floor, metres
-constexpr double stage = 4;  // of what most spots of many_spots.yaml light
+constexpr double stage = 4;  // of the square that most spots of many_spots.yaml light
 
 struct Draw {
   LitPoint at;
