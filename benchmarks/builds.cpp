@@ -1,0 +1,78 @@
+// Triangles a second from a scene to a BVH.
+#include <benchmark/benchmark.h>
+#include <tbb/task_arena.h>
+
+#include "accel/build_local.hpp"
+#include "meshes.hpp"
+#include "registrations.hpp"
+
+namespace pah::bench {
+namespace {
+
+constexpr int all_threads = tbb::task_arena::automatic;
+
+void report(benchmark::State& state, std::uint64_t triangles, std::uint64_t bytes) {
+  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(triangles));
+  state.counters["triangles"] = static_cast<double>(triangles);
+  state.counters["bytes_per_triangle"] =
+      static_cast<double>(bytes) / static_cast<double>(triangles);
+}
+
+void measure_global(benchmark::State& state, const MeshScene& scene, int threads) {
+  tbb::task_arena arena(threads);
+  std::uint64_t bytes = 0;
+  for (auto _ : state) {
+    arena.execute([&] { bytes = make_global_bvh(scene.world.triangles())->memory().global_bvh; });
+  }
+  report(state, scene.world.triangles().size(), bytes);
+}
+
+void measure_local(benchmark::State& state, const MeshScene& scene, const LocalArea& area,
+                   LocalHeuristic heuristic) {
+  const LocalConfig config{heuristic, LocalSplit::longest, 0.5, {}};
+  tbb::task_arena arena(1);
+  std::uint64_t triangles = 0, bytes = 0;
+  for (auto _ : state) {
+    arena.execute([&] {
+      const BuiltLocalBvh local =
+          build_local_bvh(scene.world.triangles(), scene.world.bounds, area.area, config);
+      triangles = local.triangles;
+      bytes = local.built.bvh.memory_bytes();
+    });
+  }
+  report(state, triangles, bytes);
+}
+
+void add_global(const std::string& mesh) {
+  const auto add = [&](const std::string& which, int threads) {
+    return benchmark::RegisterBenchmark(
+               ("builds/global_sah/" + mesh + which).c_str(),
+               [=](benchmark::State& state) { measure_global(state, mesh_scene(mesh), threads); })
+        ->Unit(benchmark::kMillisecond);
+  };
+  add("/1_thread", 1);
+  add("/all_threads", all_threads)->UseRealTime();
+}
+
+void add_local(const std::string& mesh, const std::string& which, LocalArea MeshScene::*area,
+               LocalHeuristic heuristic) {
+  benchmark::RegisterBenchmark(("builds/" + which + "/" + mesh + "/1_thread").c_str(),
+                               [=](benchmark::State& state) {
+                                 const MeshScene& scene = mesh_scene(mesh);
+                                 measure_local(state, scene, scene.*area, heuristic);
+                               })
+      ->Unit(benchmark::kMillisecond);
+}
+
+}  // namespace
+
+void register_builds(const std::vector<std::string>& meshes) {
+  for (const std::string& mesh : meshes) {
+    add_global(mesh);
+    add_local(mesh, "bulb_sah", &MeshScene::bulb_area, LocalHeuristic::surface_area);
+    add_local(mesh, "bulb_pah", &MeshScene::bulb_area, LocalHeuristic::projected_area);
+    add_local(mesh, "sun_pah", &MeshScene::sun_area, LocalHeuristic::projected_area);
+  }
+}
+
+}  // namespace pah::bench

@@ -1,0 +1,119 @@
+#include "meshes.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <map>
+#include <pah/io/mesh_file.hpp>
+#include <pah/scene/areas.hpp>
+#include <pah/scene/placement.hpp>
+#include <pah/scene/shapes.hpp>
+
+namespace pah::bench {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* shapes = "shapes";
+// Two dense surfaces, and a building of large and small triangles.
+constexpr std::array<const char*, 3> mesh_files{"nefertiti", "stanford-bunny", "CottageWalls"};
+
+fs::path mesh_folder() {
+  const char* named = std::getenv("PAHRENDER_MESHES");
+  return named != nullptr ? fs::path(named) : fs::path(PAH_SOURCE_DIR) / "../shared/meshes";
+}
+
+fs::path file_of(const std::string& mesh) { return mesh_folder() / (mesh + ".obj"); }
+
+// Two metres in its largest extent, its lowest point on the floor.
+glm::dmat4x3 on_the_floor(const Mesh& mesh) {
+  Aabb box;
+  for (const Vec3& position : mesh.positions) box.extend(position);
+  const DVec3 size(box.extent());
+  const double scale = 2 / std::max({size.x, size.y, size.z});
+  const DVec3 foot{box.center().x, box.min.y, box.center().z};
+  return {{scale, 0, 0}, {0, scale, 0}, {0, 0, scale}, -scale * foot};
+}
+
+void add_file(Scene& scene, const fs::path& file) {
+  Instance instance;
+  instance.mesh = static_cast<MeshId>(scene.meshes.size());
+  scene.meshes.push_back(read_mesh(file));
+  instance.world_from_object = on_the_floor(scene.meshes.back());
+  scene.instances.push_back(instance);
+}
+
+// Spheres and tori in the air, 63,360 triangles.
+void add_shapes(Scene& scene) {
+  const auto first = static_cast<MeshId>(scene.meshes.size());
+  scene.meshes.push_back(make_mesh(SphereShape{0.14, 48, 24}));
+  scene.meshes.push_back(make_mesh(TorusShape{0.16, 0.06, 64, 24}));
+  ScatterOptions options;
+  options.count = 24;
+  options.seed = 1;
+  const std::vector<glm::dmat4x3> places = scatter({1.7, 1.7}, options);
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    Instance instance;
+    instance.mesh = first + static_cast<MeshId>(i % 2);
+    instance.world_from_object = places[i];
+    instance.world_from_object[3].y += 0.15 + 0.07 * static_cast<double>(i);
+    scene.instances.push_back(instance);
+  }
+}
+
+Scene scene_with(const std::string& mesh) {
+  Scene scene;
+  scene.camera = PerspectiveCamera{{1.7, 1.8, 3.6}, {0, 0.9, 0}, {0, 1, 0}, 28, 0, {}};
+  scene.film.width = scene.film.height = 128;
+  scene.render.samples = 8;
+  scene.render.max_depth = 4;
+  scene.materials.emplace_back();
+  scene.lights = {{"bulb", PointLight{{-1.6, 3.2, 2.2}, Vec3{36}}},
+                  {"sun", DirectionalLight{{-1, -2, -1}, Vec3{3}, 0}}};
+  scene.influence_areas.derive = false;
+  scene.influence_areas.declared = {
+      PointAreaDeclaration{"bulb", {1.6, -2.2, -2.2}, {60, 60}, 0, 10},
+      PlaneAreaDeclaration{"sun", {1.6, 4.2, 1.6}, {-1, -2, -1}, {3.6, 3.6}, 8}};
+  scene.meshes.push_back(make_mesh(RectangleShape{{8, 8}}));
+  scene.instances.emplace_back();
+  if (mesh == shapes) {
+    add_shapes(scene);
+  } else {
+    add_file(scene, file_of(mesh));
+  }
+  return scene;
+}
+
+}  // namespace
+
+MeshScene::MeshScene(const std::string& mesh) {
+  const Scene scene = scene_with(mesh);
+  film = scene.film;
+  render = scene.render;
+  world = make_world(scene);
+  const std::vector<SceneArea> areas = areas_of(world, scene.influence_areas, film);
+  bulb_area = {areas[0].area, areas[0].bundle};
+  sun_area = {areas[1].area, areas[1].bundle};
+}
+
+std::vector<std::string> mesh_names() {
+  std::vector<std::string> names{shapes};
+  for (const std::string mesh : mesh_files) {
+    if (fs::exists(file_of(mesh))) {
+      names.push_back(mesh);
+    } else {
+      std::fprintf(stderr, "skipped: everything on %s, as there is no %s (PAHRENDER_MESHES)\n",
+                   mesh.c_str(), file_of(mesh).c_str());
+    }
+  }
+  return names;
+}
+
+const MeshScene& mesh_scene(const std::string& mesh) {
+  static std::map<std::string, MeshScene> kept;
+  return kept.try_emplace(mesh, mesh).first->second;
+}
+
+}  // namespace pah::bench
