@@ -1,23 +1,27 @@
 #!/usr/bin/env bash
 # From a fresh machine to a built program: installs what is missing, configures, builds.
+[ -n "${BASH_VERSION:-}" ] || exec bash "$0" "$@"
 set -euo pipefail
-cd "$(dirname "${BASH_SOURCE[0]}")"
+cd "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")"
 
 # openimageio-tools: Debian's CMake package of OpenImageIO refuses to load without its programs.
-packages=(
+to_build=(
   g++ cmake ninja-build ccache pkg-config
   libopenimageio-dev openimageio-tools libassimp-dev libyaml-cpp-dev libglm-dev libtbb-dev libhwy-dev
   libcli11-dev libfmt-dev nlohmann-json3-dev
-  catch2 libcgal-dev clang-format
 )
+to_test=(catch2 libcgal-dev libbenchmark-dev)
+to_sanitize=(clang-19 libclang-rt-19-dev)
+to_lint=(clang-19 clang-tidy-19 clang-format-14)
 
 usage() {
   cat <<TXT
-usage: ./bootstrap.sh [build|test] [--preset NAME] [--deps-only]
+usage: ./bootstrap.sh [build|test|lint] [--preset NAME] [--deps-only]
 
-  build         install missing packages, configure and build (the default)
-  test          the same with warnings as errors, then run the tests
-  --preset NAME a preset of CMakePresets.json (release; for tests ci)
+  build         install missing packages, configure and build the program (the default)
+  test          the same with the tests, then run them
+  lint          check formatting, and the code by clang-tidy
+  --preset NAME a preset of CMakePresets.json: release (the default), sanitize or thread
   --deps-only   install missing packages and stop
 TXT
 }
@@ -29,7 +33,7 @@ fail() {
 
 missing_packages() {
   local package
-  for package in "${packages[@]}"; do
+  for package in "$@"; do
     dpkg-query -W -f='${db:Status-Abbrev}' "$package" 2>/dev/null | grep -q '^ii' || echo "$package"
   done
 }
@@ -37,11 +41,11 @@ missing_packages() {
 install_packages() {
   if ! command -v apt-get >/dev/null || ! command -v dpkg-query >/dev/null; then
     echo "bootstrap.sh: no apt here. These must be installed by other means (Debian's names):" >&2
-    echo "  ${packages[*]}" >&2
+    echo "  $*" >&2
     return
   fi
   local missing
-  mapfile -t missing < <(missing_packages)
+  mapfile -t missing < <(missing_packages "$@")
   ((${#missing[@]})) || return 0
   echo "Installing: ${missing[*]}"
   local as_root=()
@@ -49,17 +53,23 @@ install_packages() {
     command -v sudo >/dev/null || fail "run as root, or install sudo, or install: ${missing[*]}"
     as_root=(sudo)
   fi
-  "${as_root[@]}" apt-get update -qq </dev/null
+  "${as_root[@]}" apt-get update -qq </dev/null || true
+  local package unknown=()
+  for package in "${missing[@]}"; do
+    apt-cache show "$package" >/dev/null 2>&1 || unknown+=("$package")
+  done
+  ((${#unknown[@]} == 0)) ||
+    fail "apt knows no package ${unknown[*]}: is there a network, and is this Debian 12 or later?"
   "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive \
     apt-get install -y -qq --no-install-recommends "${missing[@]}" </dev/null
 }
 
 command=build
-preset=
+preset=release
 deps_only=false
 while (($#)); do
   case "$1" in
-    build | test) command=$1 ;;
+    build | test | lint) command=$1 ;;
     --preset)
       (($# >= 2)) || fail "--preset needs a name"
       preset=$2
@@ -77,18 +87,33 @@ while (($#)); do
   esac
   shift
 done
-if [[ -z $preset ]]; then
-  [[ $command == test ]] && preset=ci || preset=release
-fi
 
-install_packages
+packages=("${to_build[@]}")
+[[ $command == test || $command == lint ]] && packages+=("${to_test[@]}")
+[[ $command == lint ]] && packages+=("${to_lint[@]}")
+[[ $preset == sanitize || $preset == thread ]] && packages+=("${to_sanitize[@]}")
+install_packages "${packages[@]}"
 if $deps_only; then exit 0; fi
 
-cmake --preset "$preset"
-if [[ $command == test ]]; then
-  cmake --build --preset "$preset"
-  ctest --preset "$preset" -j "$(nproc)"
-else
-  cmake --build --preset "$preset" --target pahrender
-  echo "Built build/$preset/pahrender"
-fi
+for folder in . build "build/$preset"; do
+  [[ ! -e $folder || -w $folder ]] ||
+    fail "cannot write to $PWD/$folder, which belongs to $(stat -c %U "$folder")"
+done
+
+case $command in
+  build)
+    cmake --preset "$preset"
+    cmake --build --preset "$preset" --target pahrender
+    echo "Built build/$preset/pahrender"
+    ;;
+  test)
+    cmake --preset "$preset"
+    cmake --build --preset "$preset"
+    ctest --preset "$preset" -j "$(nproc)"
+    ;;
+  lint)
+    git ls-files '*.cpp' '*.hpp' | xargs clang-format-14 --dry-run -Werror
+    cmake --preset sanitize
+    .ci/tidy build/sanitize
+    ;;
+esac

@@ -61,3 +61,10 @@ TEST_CASE("tasks may run tasks, and waiting ends after the last", "[threads]") {
   tasks.wait();
   CHECK(done == std::vector<int>(done.size(), 1));
 }
+
+// Hidden: it is for the thread sanitizer to find.
+TEST_CASE("a planted data race", "[.race]") {
+  std::size_t last = 0;
+  parallel_for(1'000'000, 100, [&](std::size_t i) { last = i; });
+  CHECK(last < 1'000'000);
+}
