@@ -1,7 +1,6 @@
 #include "io/yaml_errors.hpp"
 
 #include <algorithm>
-#include <list>
 #include <tuple>
 
 namespace pah {
@@ -40,15 +39,16 @@ LocatedError ErrorCollector::locate(const YamlFault& error, std::string_view lin
 
 std::vector<LocatedError> ErrorCollector::located() const {
   // Those of the file first, then those of the overrides in their order.
-  std::list<YamlFault> sorted(errors_.begin(), errors_.end());
+  std::vector<YamlFault> sorted = errors_;
   const auto key = [](const YamlFault& e) {
     return std::tie(e.mark.override_index, e.mark.line, e.mark.column);
   };
-  sorted.sort([&](const YamlFault& a, const YamlFault& b) { return key(a) < key(b); });
+  std::stable_sort(sorted.begin(), sorted.end(),
+                   [&](const YamlFault& a, const YamlFault& b) { return key(a) < key(b); });
   const auto same = [&](const YamlFault& a, const YamlFault& b) {
     return key(a) == key(b) && a.message == b.message;
   };
-  sorted.unique(same);
+  sorted.erase(std::unique(sorted.begin(), sorted.end(), same), sorted.end());
 
   std::vector<LocatedError> result;
   int line_number = 1;

@@ -3,10 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <iterator>
 #include <limits>
 #include <numbers>
-#include <vector>
 
 #include "render/spawn.hpp"
 
@@ -193,13 +191,11 @@ std::uint32_t LightSampler::build(std::span<Placed> lights, std::uint32_t parent
   }
   std::size_t middle = lights.size() / 2;
   if (best_axis >= 0 && depth < max_unbalanced_depth) {
-    // std::stable_partition of libstdc++ 12 calls what is deprecated, and Clang warns of it.
-    std::vector<Placed> left, right;
-    std::partition_copy(
-        lights.begin(), lights.end(), std::back_inserter(left), std::back_inserter(right),
+    const auto split = std::stable_partition(
+        lights.begin(), lights.end(),
         [&](const Placed& light) { return bucket_of(light, best_axis) < best_bucket; });
-    std::copy(right.begin(), right.end(), std::copy(left.begin(), left.end(), lights.begin()));
-    if (!left.empty() && !right.empty()) middle = left.size();
+    const auto left = static_cast<std::size_t>(split - lights.begin());
+    if (left > 0 && left < lights.size()) middle = left;
   }
   build(lights.subspan(0, middle), index, depth + 1);
   const std::uint32_t second = build(lights.subspan(middle), index, depth + 1);
