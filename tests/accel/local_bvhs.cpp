@@ -98,7 +98,7 @@ TEST_CASE("Local BVHs answer like brute force, bit for bit") {
   }
 }
 
-TEST_CASE("Areas take their rays from the global BVH") {
+TEST_CASE("Areas take their rays from the global BVH", "[threads]") {
   const Soup soup = random_soup(3000, 0.05F, Vec3{0}, 10);
   const Setting setting = make_setting(soup, 3);
   const auto local = make_local_bvhs(soup.triangles(), setting.areas);
