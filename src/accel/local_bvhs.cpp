@@ -68,7 +68,7 @@ class LocalBvhsOverGlobal final : public LocalBvhs {
       : bounds_(bounds_of(triangles)), counters_(areas.size()) {
     std::vector<std::uint32_t> all(triangles.size());
     std::iota(all.begin(), all.end(), 0U);
-    const BuiltBvh global = build_bvh_and_tree(triangles, all);
+    BuiltBvh global = build_bvh_and_tree(triangles, all);
     areas_.reserve(areas.size());
     for (const LocalArea& area : areas) add(area, triangles, config, global.tree);
     global_ = std::move(global.bvh);
@@ -119,6 +119,7 @@ class LocalBvhsOverGlobal final : public LocalBvhs {
 
   [[nodiscard]] std::vector<LocalBvhUse> uses() const override {
     std::vector<LocalBvhUse> uses;
+    uses.reserve(counters_.size());
     for (const Counters& c : counters_) {
       uses.push_back({c.asked, c.answered,
                       double{box_cost} * static_cast<double>(c.nodes) +

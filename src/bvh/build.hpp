@@ -18,7 +18,7 @@ namespace detail {
 
 inline constexpr std::uint32_t max_bins = 64;
 // Ranges below this are not worth a task. The tree does not depend on it.
-inline constexpr std::uint32_t parallel_grain = 4096;
+inline constexpr std::size_t parallel_grain = 4096;
 
 struct Bin {
   Aabb box;
@@ -136,7 +136,9 @@ class Builder {
       const std::uint32_t right_free = free + 2 + 2 * (left_count - 1);
       const std::uint32_t right_count = count - left_count;
       if (left_count >= parallel_grain && right_count >= parallel_grain) {
-        tasks_.run([=, this] { subdivide(free, free + 2, first, left_count, depth + 1); });
+        tasks_.run([this, free, first, left_count, depth] {
+          subdivide(free, free + 2, first, left_count, depth + 1);
+        });
       } else {
         subdivide(free, free + 2, first, left_count, depth + 1);
       }

@@ -104,7 +104,7 @@ ConvexPolygon convex_hull(std::span<const DVec2> points) {
   sorted.erase(std::unique(sorted.begin(), sorted.end()), sorted.end());
   if (sorted.size() < 3) return sorted;
   ConvexPolygon hull;
-  const auto add_chain = [&hull](auto first, auto last) {
+  const auto add_chain = [&hull](auto first, const auto& last) {
     const std::size_t start = hull.size();
     for (; first != last; ++first) {
       while (hull.size() >= start + 2 &&

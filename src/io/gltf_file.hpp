@@ -25,7 +25,7 @@ struct GltfDocument {
 
 // Cameras and lights of the document's scene. glTF's lights are photometric (candela, lux): 683
 // lm/W turn them into watts. Throws MeshFileError.
-void read_gltf_cameras_and_lights(const GltfDocument& document, MeshFile& out);
+void read_gltf_cameras_and_lights(const GltfDocument& gltf, MeshFile& out);
 
 // "%20" is a space, and so on.
 [[nodiscard]] std::string decode_uri(std::string_view uri);

@@ -39,7 +39,10 @@ constexpr Format formats[] = {{".png", Encoding::srgb_8},   {".jpg", Encoding::s
   throw FileError("cannot write " + file.string() + ": " + why);
 }
 
-std::string or_unknown(std::string message) { return message.empty() ? "unknown error" : message; }
+std::string or_unknown(std::string message) {
+  if (message.empty()) return "unknown error";
+  return message;
+}
 
 const Format& format_of(const fs::path& file) {
   std::string extension = file.extension().string();
@@ -152,7 +155,7 @@ void encode(const fs::path& file, const std::string& to, OIIO::ImageOutput& out,
             const std::vector<ImageLayer>& layers, const WriteOptions& options) {
   const Image& image = layers.front().image;
   OIIO::ImageSpec spec = spec_of(image, encoding, options);
-  const auto write = [&](OIIO::TypeDesc type, const void* values) {
+  const auto write = [&](const OIIO::TypeDesc& type, const void* values) {
     if (!(out.open(to, spec) && out.write_image(type, values) && out.close()))
       fail_to_write(file, or_unknown(out.geterror()));
   };

@@ -22,7 +22,7 @@ std::string last_error() { return std::generic_category().message(errno); }
 fs::path resolved(const fs::path& file) {
   std::error_code error;
   const fs::path absolute = fs::absolute(file, error);
-  fs::path target = fs::weakly_canonical(absolute, error);
+  const fs::path target = fs::weakly_canonical(absolute, error);
   return error ? absolute : target;
 }
 

@@ -11,7 +11,7 @@ using Kind = YamlNode::Kind;
 
 std::optional<std::filesystem::path> open_image(SceneReading& reading, const YamlNode& node,
                                                 const ValueName& name) {
-  const auto file = reading.files.open(reading.context, node, name, reading.limits.image_bytes);
+  auto file = reading.files.open(reading.context, node, name, reading.limits.image_bytes);
   if (!file || !check_image(reading, node.mark, *file)) return {};
   return file;
 }

@@ -56,7 +56,7 @@ std::string suggestion_or_keys(std::string_view word, const std::vector<std::str
 }
 
 std::string suggestion_and_options(std::string_view word, const std::vector<std::string>& options) {
-  const std::string near = suggestion(word, options);
+  std::string near = suggestion(word, options);
   if (options.empty() || options.size() > longest_list) return near;
   return (near.empty() ? "; available options are: " : near + " Available options are: ") +
          joined(options);

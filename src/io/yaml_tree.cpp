@@ -32,7 +32,8 @@ class TreeBuilder final : public YAML::EventHandler {
   void OnNull(const YAML::Mark& mark, YAML::anchor_t anchor) override {
     auto node = make(Kind::null, mark);
     // An absent value is where its key is: yaml-cpp names the token after it.
-    if (!open_.empty() && open_.back().key) node->mark = open_.back().key->mark;
+    if (!open_.empty())
+      if (const auto& key = open_.back().key) node->mark = key->mark;
     close(std::move(node), anchor);
   }
   void OnAlias(const YAML::Mark& mark, YAML::anchor_t anchor) override {
@@ -109,7 +110,7 @@ class TreeBuilder final : public YAML::EventHandler {
 
   void close(std::shared_ptr<YamlNode> node, YAML::anchor_t anchor) {
     const Mark mark = node->mark;
-    YamlRef done = std::move(node);
+    const YamlRef done = std::move(node);
     if (anchor != 0) remember(anchor, done);
     add(done, mark);
   }

@@ -132,7 +132,7 @@ std::string inspect_csv(const InspectReport& report) {
     std::string name = bvh.name;
     for (std::size_t i = 0; (i = name.find('"', i)) != std::string::npos; i += 2)
       name.insert(i, 1, '"');
-    if (name.find_first_of(",\"\r\n") != std::string::npos) name = '"' + name + '"';
+    if (name.find_first_of(",\"\r\n") != std::string::npos) name = fmt::format("\"{}\"", name);
     const auto row = [&](std::string_view quantity, const std::string& at, auto value) {
       text += fmt::format("{},{},{},{}\n", name, quantity, at, value);
     };

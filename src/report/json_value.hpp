@@ -19,6 +19,7 @@ class JsonValue {
  public:
   using Members = std::initializer_list<std::pair<std::string_view, JsonValue>>;
 
+  // NOLINTBEGIN(google-explicit-constructor): values are to be written as they are.
   JsonValue();  // null
   JsonValue(double value);
   JsonValue(std::string_view value);
@@ -31,6 +32,7 @@ class JsonValue {
       : JsonValue(value ? JsonValue(*value) : JsonValue()) {}
   JsonValue(const std::vector<JsonValue>& elements);
   JsonValue(Members members);  // keeps their order
+  // NOLINTEND(google-explicit-constructor)
 
   JsonValue(const JsonValue& other);
   JsonValue(JsonValue&&) noexcept;

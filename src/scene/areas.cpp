@@ -239,6 +239,7 @@ std::string_view type_name(const InfluenceArea& area) {
 std::vector<SceneArea> areas_of(const World& world, const InfluenceSettings& settings,
                                 const FilmSettings& film) {
   std::vector<SceneArea> areas;
+  areas.reserve(settings.declared.size());
   for (const AreaDeclaration& declaration : settings.declared)
     areas.push_back(declared_area(world, declaration));
   if (settings.derive) Derivation(world, film, areas).derive_all();

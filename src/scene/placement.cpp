@@ -102,7 +102,10 @@ class Spacing {
     const Cell home{std::floor(point.x / cell_), std::floor(point.y / cell_),
                     std::floor(point.z / cell_)};
     for (int i = 0; i < 27; ++i) {
-      const Cell cell{home[0] + i % 3 - 1, home[1] + i / 3 % 3 - 1, home[2] + i / 9 - 1};
+      const int x = i % 3 - 1;
+      const int y = i / 3 % 3 - 1;
+      const int z = i / 9 - 1;
+      const Cell cell{home[0] + x, home[1] + y, home[2] + z};
       const auto [first, last] = points_.equal_range(cell);
       for (auto it = first; it != last; ++it)
         if (glm::distance(it->second, point) < distance_) return false;
@@ -202,8 +205,8 @@ std::vector<glm::dmat4x3> scatter(const Mesh& mesh, const glm::dmat4x3& world_fr
   };
   // An instance that mirrors keeps its outside outside.
   const double side = std::copysign(1.0, glm::determinant(DMat3(world_from_object)));
-  DVec3 low{INFINITY};
-  DVec3 high{-INFINITY};
+  DVec3 low{HUGE_VAL};
+  DVec3 high{-HUGE_VAL};
   std::vector<double> areas;  // up to and including each triangle
   areas.reserve(mesh.triangles.size());
   double total = 0;

@@ -54,7 +54,7 @@ class LinearImageInput final : public OIIO::ImageInput {
   }
 
   bool read_native_scanline(int subimage, int miplevel, int y, int z, void* data) override {
-    lock_guard lock(*this);
+    const lock_guard lock(*this);
     if (!seek_subimage(subimage, miplevel)) return false;
     texels_.resize(static_cast<std::size_t>(m_spec.width) *
                    static_cast<std::size_t>(m_spec.nchannels));
@@ -62,7 +62,7 @@ class LinearImageInput final : public OIIO::ImageInput {
   }
 
   bool read_native_tile(int subimage, int miplevel, int x, int y, int z, void* data) override {
-    lock_guard lock(*this);
+    const lock_guard lock(*this);
     if (!seek_subimage(subimage, miplevel)) return false;
     texels_.resize(m_spec.tile_pixels() * static_cast<std::size_t>(m_spec.nchannels));
     return deliver(file_->read_tile(x, y, z, OIIO::TypeFloat, texels_.data()), data);
@@ -93,7 +93,7 @@ class LinearImageInput final : public OIIO::ImageInput {
 
 }  // namespace
 
-bool add_linear_image(OIIO::ImageCache& cache, OIIO::ustring name,
+bool add_linear_image(OIIO::ImageCache& cache, const OIIO::ustring& name,
                       const std::filesystem::path& file) {
   OIIO::ImageSpec config;
   config.attribute(file_attribute, file.string());

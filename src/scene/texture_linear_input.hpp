@@ -16,7 +16,7 @@ namespace pah {
 void decode_srgb(float* texels, std::size_t count, int channels, int alpha_channel);
 
 // Makes the cache serve `file` under `name`, decoded. False if the name is taken.
-bool add_linear_image(OIIO::ImageCache& cache, OIIO::ustring name,
+bool add_linear_image(OIIO::ImageCache& cache, const OIIO::ustring& name,
                       const std::filesystem::path& file);
 
 }  // namespace pah

@@ -60,7 +60,7 @@ std::string described(const std::filesystem::path& file, std::string reason) {
 double decoded_bytes(const OIIO::ImageSpec& spec) {
   const double image = static_cast<double>(spec.width) * spec.height;
   const double tile = static_cast<double>(spec.tile_width) * spec.tile_height;
-  return sizeof(float) * spec.nchannels * std::max(image, tile);
+  return std::max(image, tile) * spec.nchannels * sizeof(float);
 }
 
 // Reads the header, and refuses what would not fit before anything is decoded.
@@ -267,7 +267,7 @@ Vec4 TextureStore::sample(TextureId id, Vec2 uv, TextureUse use, Vec2 footprint)
   if (entry.checker) return sample_checker(entry, st, width);
   // A file of no declared encoding holds colours or data: it depends on what it is used for.
   const bool declared =
-      std::get<ImageTexture>(impl_->textures[id]).color_space != ColorSpace::automatic;
+      std::get_if<ImageTexture>(&impl_->textures[id])->color_space != ColorSpace::automatic;
   return impl_->sample_image(entry.image, declared || use == TextureUse::color, st, width);
 }
 

@@ -10,8 +10,8 @@ namespace pah {
 namespace {
 
 struct Bounds {
-  DVec3 min{INFINITY};
-  DVec3 max{-INFINITY};
+  DVec3 min{HUGE_VAL};
+  DVec3 max{-HUGE_VAL};
 
   void extend(const Bounds& other) {
     min = glm::min(min, other.min);

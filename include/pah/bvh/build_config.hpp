@@ -12,7 +12,8 @@ inline constexpr float triangle_cost = 1.2F;  // of as many triangles as are tes
 
 // The cost of a leaf if `side_by_side` triangles are tested at a time.
 [[nodiscard]] constexpr float leaf_cost(std::uint32_t triangles, std::uint32_t side_by_side) {
-  return triangle_cost * static_cast<float>((triangles + side_by_side - 1) / side_by_side);
+  const std::uint32_t rounds = (triangles + side_by_side - 1) / side_by_side;
+  return triangle_cost * static_cast<float>(rounds);
 }
 
 // Bit i set: axis i may be split.
