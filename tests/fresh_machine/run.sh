@@ -56,7 +56,7 @@ temporary=$(mktemp -d)
 root=$(realpath -m "${folder:-$temporary/root}")
 clean_up() {
   local mounted
-  for mounted in "$root/proc" "$root/sys"; do
+  for mounted in "$root/proc" "$root/sys" "$root/dev/pts"; do
     while mountpoint -q "$mounted"; do umount --lazy "$mounted" || return; done
   done
   rm -rf --one-file-system "$temporary"
@@ -84,6 +84,9 @@ debootstrap --variant=minbase --include=git,ca-certificates "$suite" "$root" "$m
   cannot "debootstrap failed: $(tail -n 3 "$temporary/log")"
 
 mountpoint -q "$root/proc" || mount -t proc proc "$root/proc" || cannot "/proc cannot be mounted"
+# Programs are tried at a terminal, too.
+mount -t devpts -o newinstance,ptmxmode=0666 devpts "$root/dev/pts" ||
+  cannot "/dev/pts cannot be mounted"
 cp -L /etc/resolv.conf /etc/hosts "$root/etc/"
 apt-config dump | grep -E '^Acquire::(Check-[A-Za-z-]+|Retries|https?::Proxy(::[^ ]*)?) ' \
   >"$root/etc/apt/apt.conf.d/90host" || true
