@@ -28,8 +28,8 @@ void measure_global(benchmark::State& state, const MeshScene& scene, int threads
 }
 
 void measure_local(benchmark::State& state, const MeshScene& scene, const LocalArea& area,
-                   LocalHeuristic heuristic) {
-  const LocalConfig config{heuristic, LocalSplit::longest, 0.5, {}};
+                   Heuristic heuristic) {
+  const LocalConfig config{heuristic, SplitAxis::longest, 0.5, {}};
   tbb::task_arena arena(1);
   std::uint64_t triangles = 0, bytes = 0;
   for (auto _ : state) {
@@ -55,7 +55,7 @@ void add_global(const std::string& mesh) {
 }
 
 void add_local(const std::string& mesh, const std::string& which, LocalArea MeshScene::*area,
-               LocalHeuristic heuristic) {
+               Heuristic heuristic) {
   benchmark::RegisterBenchmark(("builds/" + which + "/" + mesh + "/1_thread").c_str(),
                                [=](benchmark::State& state) {
                                  const MeshScene& scene = mesh_scene(mesh);
@@ -69,9 +69,9 @@ void add_local(const std::string& mesh, const std::string& which, LocalArea Mesh
 void register_builds(const std::vector<std::string>& meshes) {
   for (const std::string& mesh : meshes) {
     add_global(mesh);
-    add_local(mesh, "bulb_sah", &MeshScene::bulb_area, LocalHeuristic::surface_area);
-    add_local(mesh, "bulb_pah", &MeshScene::bulb_area, LocalHeuristic::projected_area);
-    add_local(mesh, "sun_pah", &MeshScene::sun_area, LocalHeuristic::projected_area);
+    add_local(mesh, "bulb_sah", &MeshScene::bulb_area, Heuristic::surface_area);
+    add_local(mesh, "bulb_pah", &MeshScene::bulb_area, Heuristic::projected_area);
+    add_local(mesh, "sun_pah", &MeshScene::sun_area, Heuristic::projected_area);
   }
 }
 

@@ -36,7 +36,7 @@ struct Subject {
   std::unique_ptr<Accelerator> bvh = make_global_bvh(scene.world.triangles());
   std::unique_ptr<Accelerator> local =
       make_local_bvhs(scene.world.triangles(), {scene.bulb_area, scene.sun_area},
-                      {LocalHeuristic::projected_area, LocalSplit::longest, 0.5, {}});
+                      {Heuristic::projected_area, SplitAxis::longest, 0.5, {}});
 };
 
 const Subject& subject(const std::string& mesh) {

@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <chrono>
 
-#include "accel/bundle_measure.hpp"
+#include "accel/bundle_heuristic.hpp"
+#include "bvh/analyze.hpp"
 #include "geometry/rounding.hpp"
 #include "parallel/parallel_for.hpp"
 
@@ -42,24 +43,30 @@ std::vector<std::uint32_t> triangles_near(const Triangles& triangles, const Regi
 
 }  // namespace
 
-BuiltLocalBvh build_local_bvh(const Triangles& triangles, const Aabb& bounds,
-                              const InfluenceArea& area, const LocalConfig& config) {
-  const auto start = std::chrono::steady_clock::now();
-  BuiltLocalBvh local;
+LocalTriangles local_triangles(const Triangles& triangles, const Aabb& bounds,
+                               const InfluenceArea& area) {
+  LocalTriangles local;
   local.region = region_of(area);
   Aabb reachable = bounds;
   reachable.extend(enclosing_box(local.region));
   const float magnitude = magnitude_of(reachable);
   local.end_margin = rounding_bound(end_roundings) * magnitude;
-  const std::vector<std::uint32_t> subset =
+  local.subset =
       triangles_near(triangles, local.region, rounding_bound(margin_roundings) * magnitude);
-  local.triangles = subset.size();
+  return local;
+}
 
-  const BundleAxes axes(area, config.split, config.facing_threshold);
-  local.built = config.heuristic == LocalHeuristic::projected_area
-                    ? build_bvh_and_tree(triangles, subset, config.build,
-                                         LocalProjectedArea{axes, HitProbability(area)})
-                    : build_bvh_and_tree(triangles, subset, config.build, LocalSurfaceArea{axes});
+BuiltBvh build_local(const Triangles& triangles, std::span<const std::uint32_t> subset,
+                     const InfluenceArea& area, const LocalConfig& config) {
+  return build_bvh(triangles, subset, config.build, bundle_heuristic(area, config));
+}
+
+BuiltLocalBvh build_local_bvh(const Triangles& triangles, const Aabb& bounds,
+                              const InfluenceArea& area, const LocalConfig& config) {
+  const auto start = std::chrono::steady_clock::now();
+  BuiltLocalBvh local;
+  local.triangles = local_triangles(triangles, bounds, area);
+  local.built = build_local(triangles, local.triangles.subset, area, config);
   local.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return local;
 }
@@ -67,7 +74,7 @@ BuiltLocalBvh build_local_bvh(const Triangles& triangles, const Aabb& bounds,
 double bundle_cost(const BinaryTree& tree, const BuildConfig& config,
                    const HitProbability& probability) {
   if (tree.empty()) return 0;
-  return expected_cost(tree, config, probability) *
+  return expected_cost(tree, config, each_box(probability)) *
          double{probability.area(tree.nodes.front().box)};
 }
 

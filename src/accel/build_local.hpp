@@ -4,19 +4,31 @@
 #include <pah/accel/local_bvhs.hpp>
 #include <pah/influence/bundle_area.hpp>
 
-#include "bvh/build_bvh.hpp"
+#include "bvh/build.hpp"
 
 namespace pah {
 
-struct BuiltLocalBvh {
-  BuiltBvh built;
+// Where an area's rays live, and what they can hit there.
+struct LocalTriangles {
   Region region;
-  float end_margin = 0;         // by which a segment can miss the eye that it was aimed at
-  std::uint64_t triangles = 0;  // that can be hit inside the region
-  double seconds = 0;
+  float end_margin = 0;  // by which a segment can miss the eye that it was aimed at
+  std::vector<std::uint32_t> subset;
 };
 
 // `bounds` holds all triangles.
+[[nodiscard]] LocalTriangles local_triangles(const Triangles& triangles, const Aabb& bounds,
+                                             const InfluenceArea& area);
+
+[[nodiscard]] BuiltBvh build_local(const Triangles& triangles,
+                                   std::span<const std::uint32_t> subset, const InfluenceArea& area,
+                                   const LocalConfig& config);
+
+// Both, and how long it took.
+struct BuiltLocalBvh {
+  LocalTriangles triangles;
+  BuiltBvh built;
+  double seconds = 0;
+};
 [[nodiscard]] BuiltLocalBvh build_local_bvh(const Triangles& triangles, const Aabb& bounds,
                                             const InfluenceArea& area, const LocalConfig& config);
 

@@ -1,9 +1,8 @@
 #include <algorithm>
-#include <numeric>
 #include <pah/accel/accelerator.hpp>
 
 #include "accel/batch.hpp"
-#include "bvh/build_bvh.hpp"
+#include "bvh/build.hpp"
 
 namespace pah {
 
@@ -11,11 +10,8 @@ namespace {
 
 class GlobalBvh final : public Accelerator {
  public:
-  explicit GlobalBvh(const Triangles& triangles) : bounds_(bounds_of(triangles)) {
-    std::vector<std::uint32_t> all(triangles.size());
-    std::iota(all.begin(), all.end(), 0U);
-    bvh_ = build_bvh(triangles, all);
-  }
+  explicit GlobalBvh(const Triangles& triangles)
+      : bvh_(build_bvh(triangles).bvh), bounds_(bounds_of(triangles)) {}
 
   void closest_hit(std::span<const Ray> rays, std::span<Hit> hits,
                    TraversalCounts* counts) const override {

@@ -66,9 +66,7 @@ class LocalBvhsOverGlobal final : public LocalBvhs {
   LocalBvhsOverGlobal(const Triangles& triangles, const std::vector<LocalArea>& areas,
                       const LocalConfig& config)
       : bounds_(bounds_of(triangles)), counters_(areas.size()) {
-    std::vector<std::uint32_t> all(triangles.size());
-    std::iota(all.begin(), all.end(), 0U);
-    BuiltBvh global = build_bvh_and_tree(triangles, all);
+    BuiltBvh global = build_bvh(triangles);
     areas_.reserve(areas.size());
     for (const LocalArea& area : areas) add(area, triangles, config, global.tree);
     global_ = std::move(global.bvh);
@@ -158,14 +156,14 @@ class LocalBvhsOverGlobal final : public LocalBvhs {
     Area area;
     area.declared = declared;
     BuiltLocalBvh local = build_local_bvh(triangles, bounds_, declared.area, config);
-    area.region = local.region;
-    area.end_margin = local.end_margin;
-    area.holds_scene = local.triangles == triangles.size();
+    area.region = local.triangles.region;
+    area.end_margin = local.triangles.end_margin;
+    area.holds_scene = local.triangles.subset.size() == triangles.size();
     area.bvh = std::move(local.built.bvh);
 
     const HitProbability probability(declared.area);
     LocalBvhReport report;
-    report.triangles = local.triangles;
+    report.triangles = local.triangles.subset.size();
     report.bytes = area.bvh.memory_bytes();
     report.build_seconds = local.seconds;
     report.predicted_cost = bundle_cost(local.built.tree, config.build, probability);

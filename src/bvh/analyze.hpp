@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "bvh/binary_tree.hpp"
+#include "bvh/heuristic.hpp"
 
 namespace pah {
 
@@ -54,52 +55,15 @@ struct TreeSummary {
   double expected_cost = 0;               // of a ray that hits the root's box
 };
 
+// The expected cost of a ray that hits the root's box.
+[[nodiscard]] double expected_cost(const BinaryTree& tree, const BuildConfig& config,
+                                   const BoxMeasure& measure);
+
 // The part of an inner node that both children claim: the measure of the intersection of their
 // boxes, relative to that of the node's. 0 if they do not touch.
-template <typename Heuristic>
-[[nodiscard]] double sibling_overlap(const NodeVisit& visit, const Heuristic& heuristic) {
-  const Aabb& left = visit.left().box;
-  const Aabb& right = visit.right().box;
-  const Aabb both{glm::max(left.min, right.min), glm::min(left.max, right.max)};
-  const double whole = double{heuristic.area(visit.node().box)};
-  return both.empty() || !(whole > 0) ? 0 : double{heuristic.area(both)} / whole;
-}
+[[nodiscard]] double sibling_overlap(const NodeVisit& visit, const BoxMeasure& measure);
 
-template <typename Heuristic>
 [[nodiscard]] TreeSummary summarize(const BinaryTree& tree, const BuildConfig& config,
-                                    const Heuristic& heuristic) {
-  TreeSummary sum;
-  const auto per_node = [&](const NodeVisit& visit) {
-    if (visit.depth == sum.levels.size()) sum.levels.emplace_back();
-    TreeLevel& level = sum.levels[visit.depth];
-    ++level.nodes;
-    if (!visit.node().leaf()) {
-      level.overlap += sibling_overlap(visit, heuristic);
-      return;
-    }
-    const std::uint32_t size = visit.node().count;
-    if (size >= sum.leaf_sizes.size()) sum.leaf_sizes.resize(size + std::size_t{1});
-    ++sum.leaf_sizes[size];
-    ++level.leaves;
-    sum.triangles += size;
-    sum.mean_depth += visit.depth;
-  };
-  const auto mean = [](double total, std::uint64_t count) {
-    return count == 0 ? 0 : total / static_cast<double>(count);
-  };
-  return visit_tree(tree, per_node, [&] {
-    for (TreeLevel& level : sum.levels) {
-      sum.nodes += level.nodes;
-      sum.leaves += level.leaves;
-      sum.overlap += level.overlap;
-      level.overlap = mean(level.overlap, level.nodes - level.leaves);
-    }
-    sum.max_depth = sum.levels.empty() ? 0 : static_cast<std::uint32_t>(sum.levels.size() - 1);
-    sum.mean_depth = mean(sum.mean_depth, sum.leaves);
-    sum.overlap = mean(sum.overlap, sum.nodes - sum.leaves);
-    sum.expected_cost = expected_cost(tree, config, heuristic);
-    return sum;
-  });
-}
+                                    const BoxMeasure& measure);
 
 }  // namespace pah

@@ -27,19 +27,4 @@ struct BinaryTree {
   [[nodiscard]] bool empty() const { return nodes.empty(); }
 };
 
-// The expected cost of a ray that hits the root's box.
-template <typename Heuristic>
-[[nodiscard]] double expected_cost(const BinaryTree& tree, const BuildConfig& config,
-                                   const Heuristic& heuristic) {
-  if (tree.empty()) return 0;
-  double cost = 0;
-  for (const BinaryTree::Node& node : tree.nodes) {
-    const double tests =
-        node.leaf() ? double{leaf_cost(node.count, config.side_by_side)} : 2 * double{box_cost};
-    cost += tests * double{heuristic.area(node.box)};
-  }
-  const double root = double{heuristic.area(tree.nodes.front().box)};
-  return root > 0 ? cost / root : cost;
-}
-
 }  // namespace pah

@@ -3,14 +3,12 @@
 #include <fmt/format.h>
 
 #include <chrono>
-#include <numeric>
 #include <pah/io/image_file.hpp>
 #include <pah/io/load_scene.hpp>
-#include <pah/scene/areas.hpp>
+#include <pah/render/acceleration.hpp>
 #include <pah/scene/world.hpp>
 
 #include "accel/build_local.hpp"
-#include "cli/accelerators.hpp"
 #include "cli/interrupt.hpp"
 #include "io/output_file.hpp"
 #include "report/box_gltf.hpp"
@@ -54,9 +52,7 @@ struct TimedBvh {
 // As renders without influence areas have it.
 TimedBvh build_global(const Triangles& triangles) {
   const auto start = std::chrono::steady_clock::now();
-  std::vector<std::uint32_t> all(triangles.size());
-  std::iota(all.begin(), all.end(), 0U);
-  BuiltBvh built = build_bvh_and_tree(triangles, all);
+  BuiltBvh built = build_bvh(triangles);
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
   return {std::move(built), seconds.count()};
 }
@@ -66,10 +62,10 @@ BvhReport report_local(const World& world, const SceneArea& area, const LocalCon
   const BuiltLocalBvh local = build_local_bvh(world.triangles(), world.bounds, area.area, config);
   const BinaryTree& tree = local.built.tree;
   const HitProbability probability(area.area);
-  const bool projected = config.heuristic == LocalHeuristic::projected_area;
+  const bool projected = config.heuristic == Heuristic::projected_area;
   return {.name = area.name,
           .heuristic = projected ? "projected area" : "surface area",
-          .tree = summarize(tree, config.build, probability),
+          .tree = summarize(tree, config.build, each_box(probability)),
           .wide_nodes = local.built.bvh.nodes.size(),
           .camera_rays = std::nullopt,
           .bundle = BundleCosts{bundle_cost(tree, config.build, probability),
@@ -97,17 +93,18 @@ ExitCode run_inspect(const InspectArguments& arguments) {
   report.width = scene.film.width;
   report.height = scene.film.height;
   report.triangles = world.triangles().size();
-  report.bvhs.push_back({.name = "global",
-                         .heuristic = "surface area",
-                         .tree = summarize(global.built.tree, BuildConfig{}, SurfaceArea{}),
-                         .wide_nodes = global.built.bvh.nodes.size(),
-                         .camera_rays = summarize(costs),
-                         .bundle = std::nullopt,
-                         .memory_bytes = global.built.bvh.memory_bytes(),
-                         .build_seconds = global.seconds});
+  report.bvhs.push_back(
+      {.name = "global",
+       .heuristic = "surface area",
+       .tree = summarize(global.built.tree, BuildConfig{}, each_box(SurfaceArea{})),
+       .wide_nodes = global.built.bvh.nodes.size(),
+       .camera_rays = summarize(costs),
+       .bundle = std::nullopt,
+       .memory_bytes = global.built.bvh.memory_bytes(),
+       .build_seconds = global.seconds});
 
   for (const SceneArea& area : areas_of(world, scene.influence_areas, scene.film))
-    if (choose(area).build)
+    if (plan({area.area, area.bundle, area.declared}).build)
       report.bvhs.push_back(
           report_local(world, area, local_config(scene.acceleration), global.built.tree));
 

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -9,8 +10,8 @@
 #include <exception>
 #include <new>
 #include <pah/io/errors.hpp>
+#include <pah/render/acceleration.hpp>
 
-#include "cli/accelerators.hpp"
 #include "cli/compare_command.hpp"
 #include "cli/exit_code.hpp"
 #include "cli/inspect_command.hpp"
@@ -51,9 +52,11 @@ CLI::Validator whole_number(int low, int high) { return CLI::Range(low, high).de
 
 CLI::Validator accelerator_name() {
   return {[](std::string& text) {
-            if (is_accelerator(text)) return std::string();
+            if (std::ranges::find(accelerator_names(), text, &AcceleratorName::name) !=
+                accelerator_names().end())
+              return std::string();
             std::vector<std::string_view> names;
-            for (const AcceleratorName& choice : accelerators()) names.push_back(choice.name);
+            for (const AcceleratorName& choice : accelerator_names()) names.push_back(choice.name);
             return fmt::format("unknown accelerator {}; available are {}", text,
                                fmt::join(names, ", "));
           },
@@ -103,7 +106,7 @@ void add_render_options(CLI::App& app, RenderArguments& arguments) {
   std::string accelerator_help =
       "What answers rays. It changes the time, never the\npicture. By default local if the scene "
       "declares\ninfluence areas, else bvh:";
-  for (const AcceleratorName& choice : accelerators())
+  for (const AcceleratorName& choice : accelerator_names())
     accelerator_help += fmt::format("\n{:12} {}", choice.name, choice.what);
   app.add_option("--accel", arguments.accelerator, accelerator_help)
       ->check(accelerator_name())

@@ -9,10 +9,10 @@
 #include <cstdio>
 #include <pah/io/image_file.hpp>
 #include <pah/io/load_scene.hpp>
+#include <pah/render/acceleration.hpp>
 #include <pah/render/render.hpp>
 #include <pah/scene/world.hpp>
 
-#include "cli/accelerators.hpp"
 #include "cli/console.hpp"
 #include "cli/interrupt.hpp"
 #include "io/output_file.hpp"
@@ -156,12 +156,13 @@ ExitCode run_render(const RenderArguments& arguments) {
   RenderReport report;
   report.seconds.load = total.seconds();
   const Stopwatch building;
-  const ChosenAccelerator chosen = tbb::task_arena(threads).execute(
-      [&] { return make_accelerator(arguments.accelerator, world, scene); });
+  const Acceleration acceleration = tbb::task_arena(threads).execute(
+      [&] { return make_acceleration(world, scene, arguments.accelerator); });
   report.seconds.build = building.seconds();
 
   const SavingOnInterrupt saving;
-  const RenderResult result = render_with_progress(world, *chosen.accelerator, scene, arguments);
+  const RenderResult result =
+      render_with_progress(world, *acceleration.accelerator, scene, arguments);
   const bool interrupted = stop_requested() && !result.complete;
   if (interrupted && !any_samples(result.film)) {
     fmt::print(stderr, "interrupted before there was anything to save\n");
@@ -178,13 +179,13 @@ ExitCode run_render(const RenderArguments& arguments) {
     report.samples = result.samples;
     report.threads = threads;
     report.seed = scene.render.seed;
-    report.accelerator = chosen.name;
+    report.accelerator = acceleration.name;
     report.triangles = world.triangles().size();
     report.counts = result.counts;
     report.scene_bytes = world.bytes();
     report.film_bytes = result.film.pixels.size() * sizeof(FilmPixel);
-    report.accelerator_bytes = chosen.accelerator->memory();
-    report.influence_areas = report_areas(chosen);
+    report.accelerator_bytes = acceleration.accelerator->memory();
+    report.influence_areas = report_areas(acceleration);
     report.error = estimate_error(result.film);
     report.seconds.render = result.seconds;
     report.seconds.total = total.seconds();

@@ -108,12 +108,12 @@ void read_influence_areas(SceneReading& reading, const YamlNode* node) {
 void read_acceleration(SceneReading& reading, const YamlNode* node) {
   AccelerationSettings& settings = reading.scene.acceleration;
   read_map(reading.context, node, "acceleration", "acceleration", [&](MapReader& map) {
-    map.option(
-        "heuristic", settings.heuristic,
-        EnumNames<Heuristic>{
-            {"auto", Heuristic::automatic}, {"sah", Heuristic::sah}, {"pah", Heuristic::pah}});
+    map.option("heuristic", settings.heuristic,
+               EnumNames<std::optional<Heuristic>>{{"auto", std::nullopt},
+                                                   {"sah", Heuristic::surface_area},
+                                                   {"pah", Heuristic::projected_area}});
     map.option("split_axis", settings.split_axis,
-               EnumNames<SplitAxis>{{"auto", SplitAxis::automatic},
+               EnumNames<SplitAxis>{{"auto", SplitAxis::best},
                                     {"longest", SplitAxis::longest},
                                     {"facing", SplitAxis::facing}});
     map.option("top_level", settings.top_level,

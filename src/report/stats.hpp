@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
-#include <pah/accel/accelerator.hpp>
+#include <pah/render/acceleration.hpp>
 #include <pah/render/render.hpp>
 #include <string>
 #include <vector>
@@ -40,6 +40,9 @@ struct RenderReport {
   std::vector<AreaReport> influence_areas;
   ErrorEstimate error;
 };
+
+// After a render that counted its traversal.
+[[nodiscard]] std::vector<AreaReport> report_areas(const Acceleration& acceleration);
 
 // The most memory that this process has held, in bytes.
 [[nodiscard]] std::uint64_t peak_memory_bytes();

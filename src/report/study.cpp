@@ -16,17 +16,17 @@ bool is_swept(const StudyArea& area, bool quick) {
 
 }  // namespace
 
-const char* name_of(LocalHeuristic heuristic) {
-  return heuristic == LocalHeuristic::surface_area ? "SAH" : "PAH";
+const char* name_of(Heuristic heuristic) {
+  return heuristic == Heuristic::surface_area ? "SAH" : "PAH";
 }
 
-const char* name_of(LocalSplit split) {
+const char* name_of(SplitAxis split) {
   switch (split) {
-    case LocalSplit::best:
+    case SplitAxis::best:
       return "best";
-    case LocalSplit::longest:
+    case SplitAxis::longest:
       return "longest";
-    case LocalSplit::facing:
+    case SplitAxis::facing:
       return "SPFH";
   }
   return "";
@@ -41,7 +41,7 @@ StudyResults run_study(const std::vector<StudyMesh>& meshes, const StudyConfig& 
     const Aabb bounds = bounds_of(mesh.triangles());
     std::vector<std::uint32_t> all(mesh.indices.size());
     std::iota(all.begin(), all.end(), 0U);
-    const BuiltBvh global = build_bvh_and_tree(mesh.triangles(), all);
+    const BuiltBvh global = build_bvh(mesh.triangles(), all);
     const std::vector<StudyArea> areas = study_areas(bounds, config.quick);
     for (std::size_t a = 0; a < areas.size(); ++a) {
       if (progress) {

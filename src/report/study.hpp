@@ -39,16 +39,16 @@ inline constexpr std::size_t study_groups = 6;
 [[nodiscard]] const char* name_of(StudyGroup group);
 [[nodiscard]] inline bool is_point(StudyGroup group) { return group >= StudyGroup::point_outside; }
 
-[[nodiscard]] const char* name_of(LocalHeuristic heuristic);
-[[nodiscard]] const char* name_of(LocalSplit split);
+[[nodiscard]] const char* name_of(Heuristic heuristic);
+[[nodiscard]] const char* name_of(SplitAxis split);
 
 // Which tree a row is about.
 struct StudyCase {
   std::string mesh, area;
   StudyGroup group{};
   std::uint64_t triangles = 0;  // of the local BVH
-  LocalHeuristic heuristic{};
-  LocalSplit split{};
+  Heuristic heuristic{};
+  SplitAxis split{};
 };
 
 // Expected cost of a ray that meets the root's box, by several measures of a box, beside the mean

@@ -20,9 +20,8 @@ void study_cost(const StudySite& site, const BuiltBvh& global,
   const StudyTree global_tree{global.tree, site.mesh.triangles(), all_triangles, site.bounds,
                               BuildConfig{}.side_by_side};
   const double global_cost = count_closest(global_tree, site.rays, false).mean_of_all();
-  for (const LocalHeuristic heuristic :
-       {LocalHeuristic::surface_area, LocalHeuristic::projected_area}) {
-    for (const LocalSplit split : {LocalSplit::longest, LocalSplit::best, LocalSplit::facing}) {
+  for (const Heuristic heuristic : {Heuristic::surface_area, Heuristic::projected_area}) {
+    for (const SplitAxis split : {SplitAxis::longest, SplitAxis::best, SplitAxis::facing}) {
       LocalConfig config;
       config.heuristic = heuristic;
       config.split = split;

@@ -1,7 +1,7 @@
 // The local BVHs that are studied.
 #pragma once
 
-#include "bvh/build_bvh.hpp"
+#include "bvh/build.hpp"
 #include "report/study.hpp"
 #include "report/study_areas.hpp"
 #include "report/study_work.hpp"
@@ -13,7 +13,7 @@ struct StudySite {
   const StudyMesh& mesh;
   StudyArea area;
   Aabb bounds;                        // of the whole mesh
-  std::vector<std::uint32_t> subset;  // triangles whose boxes meet the region
+  std::vector<std::uint32_t> subset;  // triangles that can be hit in the region
   std::vector<BundleRay> rays;
 
   [[nodiscard]] StudyTree on(const BinaryTree& tree, const BuildConfig& config) const {

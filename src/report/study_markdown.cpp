@@ -176,8 +176,7 @@ std::string sweeps(const StudyResults& results) {
   for (const auto& [parameter, value] : settings) {
     std::vector<std::string> cells{fmt::format("{} {:g}", parameter, value)};
     for (const std::string& area : areas)
-      for (const LocalHeuristic heuristic :
-           {LocalHeuristic::surface_area, LocalHeuristic::projected_area})
+      for (const Heuristic heuristic : {Heuristic::surface_area, Heuristic::projected_area})
         cells.push_back(number(mean_of(
             results.sweeps,
             [&, name = parameter, setting = value](const SweepRow& row) {

@@ -29,8 +29,8 @@ template <typename Row, typename Take, typename Value>
 
 // A tree of the comparison.
 struct StudyVariant {
-  LocalHeuristic heuristic;
-  LocalSplit split;
+  Heuristic heuristic;
+  SplitAxis split;
 
   [[nodiscard]] bool built(const CostRow& row) const {
     return row.tree.heuristic == heuristic && row.tree.split == split;
@@ -40,12 +40,12 @@ struct StudyVariant {
   }
 };
 
-inline constexpr StudyVariant sah_longest{LocalHeuristic::surface_area, LocalSplit::longest};
-inline constexpr StudyVariant sah_best{LocalHeuristic::surface_area, LocalSplit::best};
-inline constexpr StudyVariant sah_facing{LocalHeuristic::surface_area, LocalSplit::facing};
-inline constexpr StudyVariant pah_longest{LocalHeuristic::projected_area, LocalSplit::longest};
-inline constexpr StudyVariant pah_best{LocalHeuristic::projected_area, LocalSplit::best};
-inline constexpr StudyVariant pah_facing{LocalHeuristic::projected_area, LocalSplit::facing};
+inline constexpr StudyVariant sah_longest{Heuristic::surface_area, SplitAxis::longest};
+inline constexpr StudyVariant sah_best{Heuristic::surface_area, SplitAxis::best};
+inline constexpr StudyVariant sah_facing{Heuristic::surface_area, SplitAxis::facing};
+inline constexpr StudyVariant pah_longest{Heuristic::projected_area, SplitAxis::longest};
+inline constexpr StudyVariant pah_best{Heuristic::projected_area, SplitAxis::best};
+inline constexpr StudyVariant pah_facing{Heuristic::projected_area, SplitAxis::facing};
 inline constexpr StudyVariant study_variants[] = {sah_longest, sah_best, sah_facing,
                                                   pah_longest, pah_best, pah_facing};
 

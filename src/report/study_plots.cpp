@@ -89,8 +89,7 @@ std::string sweep_plot(const StudyResults& results) {
     if (std::find(done.begin(), done.end(), name) != done.end()) continue;
     done.push_back(name);
     text += quoted(name);
-    for (const LocalHeuristic heuristic :
-         {LocalHeuristic::surface_area, LocalHeuristic::projected_area})
+    for (const Heuristic heuristic : {Heuristic::surface_area, Heuristic::projected_area})
       text += fmt::format(" {:.4g}", mean_of(
                                          results.sweeps,
                                          [&](const SweepRow& other) {

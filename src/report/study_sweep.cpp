@@ -6,7 +6,7 @@ namespace {
 
 struct Parameter {
   const char* name;
-  LocalSplit split;
+  SplitAxis split;
   double default_value;
   std::vector<double> values;
   void (*set)(LocalConfig&, double);
@@ -15,16 +15,16 @@ struct Parameter {
 const std::vector<Parameter>& parameters() {
   static const std::vector<Parameter> all{
       {"bins",
-       LocalSplit::best,
+       SplitAxis::best,
        16,
        {4, 8, 16, 32},
        [](LocalConfig& c, double v) { c.build.bins = static_cast<std::uint32_t>(v); }},
       {"max_leaf",
-       LocalSplit::best,
+       SplitAxis::best,
        8,
        {1, 2, 4, 8},
        [](LocalConfig& c, double v) { c.build.max_leaf = static_cast<std::uint32_t>(v); }},
-      {"facing_threshold", LocalSplit::facing, 0.5, {0.3, 0.5, 0.7}, [](LocalConfig& c, double v) {
+      {"facing_threshold", SplitAxis::facing, 0.5, {0.3, 0.5, 0.7}, [](LocalConfig& c, double v) {
          c.facing_threshold = v;
        }}};
   return all;
@@ -38,8 +38,7 @@ double cost_of(const StudySite& site, const LocalConfig& config) {
 }  // namespace
 
 void study_sweep(const StudySite& site, StudyResults& results) {
-  for (const LocalHeuristic heuristic :
-       {LocalHeuristic::surface_area, LocalHeuristic::projected_area}) {
+  for (const Heuristic heuristic : {Heuristic::surface_area, Heuristic::projected_area}) {
     for (const Parameter& parameter : parameters()) {
       double default_cost = 0;
       const std::size_t first = results.sweeps.size();

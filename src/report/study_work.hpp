@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "bvh/build_bvh.hpp"
+#include "bvh/build.hpp"
 #include "report/study_rays.hpp"
 
 namespace pah {

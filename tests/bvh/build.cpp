@@ -1,5 +1,6 @@
 // The builder: valid, bounded and deterministic trees.
 #include "bvh/build.hpp"
+#include "bvh/analyze.hpp"
 
 #include <tbb/global_control.h>
 #include <tbb/task_arena.h>
@@ -74,30 +75,30 @@ TEST_CASE("Trees hold every triangle once, in tight boxes") {
       BuildConfig config;
       config.max_leaf = max_leaf;
       config.side_by_side = max_leaf;
-      CHECK(check_tree(build_tree(std::span(boxes), config), boxes, max_leaf) <= max_depth);
+      CHECK(check_tree(build_tree(boxes, config), boxes, max_leaf) <= max_depth);
     }
   }
 }
 
 TEST_CASE("A tree does not depend on the number of threads", "[threads]") {
   const std::vector<Aabb> boxes = boxes_of(test::random_soup(60000, 0.05F, Vec3{0}, 1));
-  const BinaryTree expected = build_tree(std::span<const Aabb>(boxes));
+  const BinaryTree expected = build_tree(boxes);
   for (const int threads : {1, 2, 7}) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
                                     static_cast<std::size_t>(threads));
     tbb::task_arena arena(threads);
-    arena.execute([&] { CHECK(same_tree(expected, build_tree(std::span<const Aabb>(boxes)))); });
+    arena.execute([&] { CHECK(same_tree(expected, build_tree(boxes))); });
   }
 }
 
 TEST_CASE("A tree of a scene scaled by a power of two is the scaled tree") {
   const std::vector<Aabb> boxes = boxes_of(test::random_soup(3000, 0.05F, Vec3{1, 2, 3}, 2));
-  const BinaryTree expected = build_tree(std::span<const Aabb>(boxes));
+  const BinaryTree expected = build_tree(boxes);
   for (int k = -20; k <= 20; ++k) {
     const float scale = std::ldexp(1.0F, k);
     std::vector<Aabb> scaled = boxes;
     for (Aabb& box : scaled) box = {scale * box.min, scale * box.max};
-    BinaryTree tree = build_tree(std::span<const Aabb>(scaled));
+    BinaryTree tree = build_tree(scaled);
     for (BinaryTree::Node& node : tree.nodes) {
       node.box = {node.box.min / scale, node.box.max / scale};
     }
@@ -107,7 +108,7 @@ TEST_CASE("A tree of a scene scaled by a power of two is the scaled tree") {
 
 TEST_CASE("A million identical triangles make a tree as shallow as can be") {
   const std::vector<Aabb> boxes(1000000, Aabb{{0, 0, 0}, {1, 1, 0}});
-  const BinaryTree tree = build_tree(std::span<const Aabb>(boxes));
+  const BinaryTree tree = build_tree(boxes);
   CHECK(check_tree(tree, boxes, BuildConfig{}.max_leaf) <= 20);
 }
 
@@ -118,8 +119,7 @@ TEST_CASE("Lopsided input makes a tree of bounded depth") {
     const float size = std::ldexp(1.0F, 120 - i);
     boxes.insert(boxes.end(), 100, Aabb{Vec3{0}, Vec3{size}});
   }
-  CHECK(check_tree(build_tree(std::span<const Aabb>(boxes)), boxes, BuildConfig{}.max_leaf) <=
-        max_depth);
+  CHECK(check_tree(build_tree(boxes), boxes, BuildConfig{}.max_leaf) <= max_depth);
 }
 
 TEST_CASE("Boxes at the ends of float's range are split") {
@@ -130,19 +130,18 @@ TEST_CASE("Boxes at the ends of float's range are split") {
     const Vec3 p = random.in_box({Vec3{-1}, Vec3{1}}) * (i % 2 == 0 ? huge : 1e-44F);
     boxes.push_back({p, p});
   }
-  CHECK(check_tree(build_tree(std::span<const Aabb>(boxes)), boxes, BuildConfig{}.max_leaf) <=
-        max_depth);
+  CHECK(check_tree(build_tree(boxes), boxes, BuildConfig{}.max_leaf) <= max_depth);
 }
 
 TEST_CASE("Splits by cost beat splits by halves") {
   const std::vector<Aabb> boxes = boxes_of(test::random_soup(5000, 0.02F, Vec3{0}, 3));
-  struct Blind : SurfaceArea {
-    [[nodiscard]] float area(const Aabb&) const { return 1; }
+  const BoxMeasure blind_measure = [](std::span<const Aabb>, std::span<float> measures) {
+    std::ranges::fill(measures, 1.0F);
   };
-  const BinaryTree sah = build_tree(std::span<const Aabb>(boxes));
-  const BinaryTree blind = build_tree(std::span<const Aabb>(boxes), BuildConfig{}, Blind{});
-  CHECK(expected_cost(sah, BuildConfig{}, SurfaceArea{}) <
-        0.9 * expected_cost(blind, BuildConfig{}, SurfaceArea{}));
+  const BinaryTree sah = build_tree(boxes);
+  const BinaryTree blind = build_tree(boxes, {}, {blind_measure, any_axis});
+  const BoxMeasure surface_area = each_box(SurfaceArea{});
+  CHECK(expected_cost(sah, {}, surface_area) < 0.9 * expected_cost(blind, {}, surface_area));
 }
 
 TEST_CASE("A heuristic decides which axis is split") {
@@ -154,11 +153,9 @@ TEST_CASE("A heuristic decides which axis is split") {
       boxes.push_back({at, at + Vec3{0.5F, 0.5F, 1}});
     }
   }
-  struct OnlyX : SurfaceArea {
-    [[nodiscard]] AxisMask axes(const Aabb&) const { return 0b001; }
-  };
+  const auto only_x = [](const Aabb&) -> AxisMask { return 0b001; };
   const BinaryTree tree =
-      build_tree(std::span<const Aabb>(boxes), {.max_leaf = 4, .side_by_side = 1}, OnlyX{});
+      build_tree(boxes, {.max_leaf = 4, .side_by_side = 1}, {each_box(SurfaceArea{}), only_x});
   REQUIRE(tree.nodes.size() > 32);
   std::uint32_t overlaps = 0;
   for (const BinaryTree::Node& node : tree.nodes) {

@@ -73,8 +73,8 @@ TEST_CASE("Influence areas give the same golden pictures as brute force to the l
     const std::vector<LocalArea> areas = many_areas(scene, world);
     REQUIRE(areas.size() > 3);
     const Film expected = render_few(world, *make_brute_force(world.triangles()), scene);
-    for (const auto heuristic : {LocalHeuristic::surface_area, LocalHeuristic::projected_area})
-      for (const auto split : {LocalSplit::best, LocalSplit::longest, LocalSplit::facing}) {
+    for (const auto heuristic : {Heuristic::surface_area, Heuristic::projected_area})
+      for (const auto split : {SplitAxis::best, SplitAxis::longest, SplitAxis::facing}) {
         LocalConfig config;
         config.heuristic = heuristic;
         config.split = split;

@@ -2,7 +2,7 @@
 #include <numeric>
 #include <pah/accel/accelerator.hpp>
 
-#include "bvh/build_bvh.hpp"
+#include "bvh/build.hpp"
 #include "catch.hpp"
 #include "render/camera_rays.hpp"
 #include "report/false_colour.hpp"
@@ -36,7 +36,7 @@ TEST_CASE("Every pixel's ray is counted as the accelerator counts it alone") {
   FilmSettings film;
   film.width = 24;
   film.height = 16;
-  const PictureCosts costs = measure_costs(build_bvh(triangles, all), bounds, camera, film);
+  const PictureCosts costs = measure_costs(build_bvh(triangles, all).bvh, bounds, camera, film);
   REQUIRE(costs.rays.size() == 24 * 16);
 
   const auto accelerator = make_global_bvh(triangles);

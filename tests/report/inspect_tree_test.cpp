@@ -25,7 +25,7 @@ TEST_CASE("A visit to an empty tree only ends") {
 }
 
 TEST_CASE("The summary of a tree is exact") {
-  const TreeSummary sum = summarize(test::hand_made_tree(), BuildConfig{}, SurfaceArea{});
+  const TreeSummary sum = summarize(test::hand_made_tree(), BuildConfig{}, each_box(SurfaceArea{}));
   CHECK(sum.triangles == 10);
   CHECK(sum.nodes == 5);
   CHECK(sum.leaves == 3);
@@ -53,13 +53,13 @@ TEST_CASE("The summary of a tree is exact") {
 TEST_CASE("Siblings apart do not overlap, nor do those of a box without area") {
   BinaryTree tree = test::hand_made_tree();
   tree.nodes[4].box.min.x = 1.25F;
-  CHECK(summarize(tree, BuildConfig{}, SurfaceArea{}).levels[1].overlap == 0);
+  CHECK(summarize(tree, BuildConfig{}, each_box(SurfaceArea{})).levels[1].overlap == 0);
   for (BinaryTree::Node& node : tree.nodes) node.box = {Vec3{1}, Vec3{1}};
-  CHECK(summarize(tree, BuildConfig{}, SurfaceArea{}).overlap == 0);
+  CHECK(summarize(tree, BuildConfig{}, each_box(SurfaceArea{})).overlap == 0);
 }
 
 TEST_CASE("An empty tree has an empty summary") {
-  const TreeSummary sum = summarize(BinaryTree{}, BuildConfig{}, SurfaceArea{});
+  const TreeSummary sum = summarize(BinaryTree{}, BuildConfig{}, each_box(SurfaceArea{}));
   CHECK(sum.nodes == 0);
   CHECK(sum.levels.empty());
   CHECK(sum.mean_depth == 0);

@@ -76,10 +76,10 @@ TEST_CASE("Relative costs are relative to what they say") {
   const auto by_best = relative_costs(results.costs, sah_best, &CostRow::closest);
   for (std::size_t i = 0; i < results.costs.size(); i += 6) {
     CHECK(by_longest[i].closest == 1);
-    CHECK(results.costs[i].tree.split == LocalSplit::longest);
+    CHECK(results.costs[i].tree.split == SplitAxis::longest);
     CHECK(by_best[i + 1].closest == 1);
     CHECK(by_best[i].closest == Approx(results.costs[i].closest / results.costs[i + 1].closest));
-    CHECK(results.costs[i + 1].tree.split == LocalSplit::best);
+    CHECK(results.costs[i + 1].tree.split == SplitAxis::best);
     for (std::size_t k = i; k < i + 6; ++k) CHECK(results.costs[k].break_even > 0);
   }
   for (const SweepRow& row : results.sweeps) {

@@ -262,21 +262,6 @@ TEST_CASE("declared areas are moved along with the scene") {
   }
 }
 
-TEST_CASE("declared areas are built, derived ones are not yet worth it") {
-  Scene scene = scene_about(DVec3(0));
-  scene.lights.push_back({"lamp", PointLight{DVec3(0, 5, 0), Vec3(1)}});
-  PointAreaDeclaration point;
-  point.light = "lamp";
-  scene.influence_areas.declared = {point};
-  int built = 0;
-  for (const SceneArea& area : areas_in(scene)) {
-    CHECK(choose(area).build == area.declared);
-    CHECK(!choose(area).reason.empty());
-    built += choose(area).build ? 1 : 0;
-  }
-  CHECK(built == 1);
-}
-
 TEST_CASE("an area is declared for a light of its kind only") {
   Scene scene = scene_about(DVec3(0));
   scene.lights.push_back({"lamp", PointLight{}});

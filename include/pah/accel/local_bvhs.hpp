@@ -9,23 +9,10 @@
 
 namespace pah {
 
-// By what a local BVH's boxes are measured.
-enum class LocalHeuristic : std::uint8_t {
-  surface_area,   // SAH: as if rays came from everywhere
-  projected_area  // PAH: the chance that a ray of the area's bundle hits the box
-};
-
-// Which axes of a node may be split.
-enum class LocalSplit : std::uint8_t {
-  best,     // the cheapest split of all three
-  longest,  // of the axis along which the node is longest
-  facing    // SPFH: of the axes whose planes face the bundle's rays well enough
-};
-
 struct LocalConfig {
-  LocalHeuristic heuristic = LocalHeuristic::surface_area;
-  LocalSplit split = LocalSplit::best;
-  // LocalSplit::facing: axes of a lower facing quality are split only if no axis reaches it.
+  Heuristic heuristic = Heuristic::surface_area;
+  SplitAxis split = SplitAxis::best;
+  // SplitAxis::facing: axes of a lower facing quality are split only if no axis reaches it.
   double facing_threshold = 0.5;
   BuildConfig build;
 };
@@ -34,6 +21,7 @@ struct LocalConfig {
 struct LocalArea {
   InfluenceArea area;
   std::uint32_t bundle = no_bundle;
+  bool declared = false;  // by hand; else derived
 };
 
 struct LocalBvhReport {

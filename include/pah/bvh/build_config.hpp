@@ -20,25 +20,24 @@ inline constexpr float triangle_cost = 1.2F;  // of as many triangles as are tes
 using AxisMask = std::uint32_t;
 inline constexpr AxisMask all_axes = 0b111;
 
-enum class AxisChoice : std::uint8_t {
-  best,     // the cheapest split of all three axes
-  longest,  // of the axis along which the node is longest
+// By what the boxes of a BVH are measured.
+enum class Heuristic : std::uint8_t {
+  surface_area,   // SAH: as if rays came from everywhere
+  projected_area  // PAH: the chance that a ray of the area's bundle hits the box
 };
 
-// What a builder asks of a heuristic: the measure of a box, proportional to the chance that a ray
-// hits it (only ratios matter), and the axes that may be split.
-struct SurfaceArea {
-  AxisChoice choice = AxisChoice::best;
+// Which axes of a node may be split.
+enum class SplitAxis : std::uint8_t {
+  best,     // the cheapest split of all three
+  longest,  // of the axis along which the node is longest
+  facing    // SPFH: of the axes whose planes face the bundle's rays well enough
+};
 
+struct SurfaceArea {
   // Half the surface area.
   [[nodiscard]] float area(const Aabb& box) const {
     const Vec3 size = box.extent();
     return size.x * size.y + size.y * size.z + size.z * size.x;
-  }
-  [[nodiscard]] AxisMask axes(const Aabb& box) const {
-    if (choice == AxisChoice::best) return all_axes;
-    const Vec3 size = box.extent();
-    return size.x >= size.y && size.x >= size.z ? 0b001 : size.y >= size.z ? 0b010 : 0b100;
   }
 };
 

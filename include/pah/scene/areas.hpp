@@ -28,12 +28,4 @@ struct SceneArea {
 [[nodiscard]] std::vector<SceneArea> areas_of(const World& world, const InfluenceSettings& settings,
                                               const FilmSettings& film);
 
-struct AreaChoice {
-  bool build = false;
-  std::string_view reason;
-};
-
-// Whether an area is to have a BVH of its own.
-[[nodiscard]] AreaChoice choose(const SceneArea& area);
-
 }  // namespace pah

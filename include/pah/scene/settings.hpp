@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <pah/bvh/build_config.hpp>
 #include <pah/geometry/vec.hpp>
 #include <string>
 #include <variant>
@@ -63,14 +64,12 @@ struct InfluenceSettings {
   std::vector<AreaDeclaration> declared;
 };
 
-enum class Heuristic { automatic, sah, pah };         // of local BVHs; sah if automatic
-enum class SplitAxis { automatic, longest, facing };  // the cheapest of all three if automatic
 // Rays carry their bundle and find its areas by it: all three are a list per bundle so far.
 enum class TopLevelKind { automatic, list, octree };
 
 struct AccelerationSettings {
-  Heuristic heuristic = Heuristic::automatic;
-  SplitAxis split_axis = SplitAxis::automatic;
+  std::optional<Heuristic> heuristic;  // of local BVHs; without one SAH so far
+  SplitAxis split_axis = SplitAxis::best;
   TopLevelKind top_level = TopLevelKind::automatic;
   std::optional<int> octree_depth;  // in [1, 10]; without effect so far
   int bins = 16;                    // in [2, 64]; of local BVHs, as the next

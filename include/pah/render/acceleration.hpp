@@ -1,0 +1,41 @@
+// From a scene's settings to what answers its rays.
+#pragma once
+
+#include <memory>
+#include <pah/accel/plan.hpp>
+#include <pah/scene/areas.hpp>
+#include <pah/scene/scene.hpp>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace pah {
+
+struct AcceleratorName {
+  std::string_view name;
+  std::string_view what;
+};
+
+// "bvh", "local" and "brute_force", and what they are.
+[[nodiscard]] std::span<const AcceleratorName> accelerator_names();
+
+struct Acceleration {
+  std::string_view name;  // one of accelerator_names()
+  std::unique_ptr<Accelerator> accelerator;
+  std::vector<SceneArea> areas;      // declared, then derived
+  std::vector<AreaPlan> plans;       // for each area
+  const LocalBvhs* local = nullptr;  // the accelerator, if it has areas: those built, in order
+};
+
+// Of `settings` it takes influence_areas, acceleration and film; the geometry is the world's, which
+// must outlive the accelerator. `name` is one of accelerator_names(), or empty: then it is local if
+// there is an area to build, and bvh otherwise. Builds by the calling arena's threads. The
+// accelerator's answers are the same to the last bit whatever the settings. Throws
+// std::invalid_argument for another name, and as areas_of does.
+[[nodiscard]] Acceleration make_acceleration(const World& world, const Scene& settings,
+                                             std::string_view name = {});
+
+// How acceleration settings have local BVHs built.
+[[nodiscard]] LocalConfig local_config(const AccelerationSettings& settings);
+
+}  // namespace pah

@@ -1,0 +1,13 @@
+// Heuristics of the builder for the rays of one influence area.
+#pragma once
+
+#include <pah/accel/local_bvhs.hpp>
+
+#include "bvh/heuristic.hpp"
+
+namespace pah {
+
+// What `config` says, for the area's bundle.
+[[nodiscard]] BuildHeuristic bundle_heuristic(const InfluenceArea& area, const LocalConfig& config);
+
+}  // namespace pah

@@ -1,0 +1,60 @@
+#include <algorithm>
+#include <array>
+#include <iterator>
+#include <pah/render/acceleration.hpp>
+#include <stdexcept>
+
+namespace pah {
+namespace {
+
+constexpr std::array<AcceleratorName, 3> names{{
+    {"bvh", "one BVH over all triangles"},
+    {"local", "that, and a local BVH for each influence area"},
+    {"brute_force", "no structure: every ray tests every triangle"},
+}};
+constexpr std::string_view bvh = names[0].name;
+constexpr std::string_view local = names[1].name;
+
+LocalArea local_area(const SceneArea& area) { return {area.area, area.bundle, area.declared}; }
+
+}  // namespace
+
+std::span<const AcceleratorName> accelerator_names() { return names; }
+
+LocalConfig local_config(const AccelerationSettings& settings) {
+  LocalConfig config;
+  config.heuristic = settings.heuristic.value_or(config.heuristic);
+  config.split = settings.split_axis;
+  config.build.bins = static_cast<std::uint32_t>(settings.bins);
+  config.build.max_leaf = static_cast<std::uint32_t>(settings.max_leaf_triangles);
+  return config;
+}
+
+Acceleration make_acceleration(const World& world, const Scene& settings, std::string_view name) {
+  Acceleration made;
+  made.areas = areas_of(world, settings.influence_areas, settings.film);
+  for (const SceneArea& area : made.areas) made.plans.push_back(plan(local_area(area)));
+  const bool any = std::ranges::any_of(made.plans, &AreaPlan::build);
+  const std::string_view wanted = !name.empty() ? name : any ? local : bvh;
+  const auto known = std::ranges::find(names, wanted, &AcceleratorName::name);
+  if (known == names.end())
+    throw std::invalid_argument("unknown accelerator '" + std::string(wanted) + "'");
+  made.name = known->name;
+  if (made.name == local) {
+    std::vector<LocalArea> areas;
+    for (std::size_t i = 0; i < made.areas.size(); ++i)
+      if (made.plans[i].build) areas.push_back(local_area(made.areas[i]));
+    auto accelerator =
+        make_local_bvhs(world.triangles(), areas, local_config(settings.acceleration));
+    made.local = accelerator.get();
+    made.accelerator = std::move(accelerator);
+    return made;
+  }
+  for (AreaPlan& plan : made.plans)
+    if (plan.build) plan = {false, "the accelerator asked for knows no areas"};
+  made.accelerator =
+      made.name == bvh ? make_global_bvh(world.triangles()) : make_brute_force(world.triangles());
+  return made;
+}
+
+}  // namespace pah

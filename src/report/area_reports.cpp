@@ -1,0 +1,36 @@
+#include <pah/render/acceleration.hpp>
+
+#include "report/stats.hpp"
+
+namespace pah {
+
+std::vector<AreaReport> report_areas(const Acceleration& acceleration) {
+  std::vector<AreaReport> reports;
+  const std::vector<LocalBvhUse> uses =
+      acceleration.local != nullptr ? acceleration.local->uses() : std::vector<LocalBvhUse>{};
+  std::size_t built = 0;
+  for (std::size_t i = 0; i < acceleration.areas.size(); ++i) {
+    const SceneArea& area = acceleration.areas[i];
+    const AreaPlan& plan = acceleration.plans[i];
+    AreaReport report;
+    report.name = area.name;
+    report.type = type_name(area.area);
+    report.light = area.light;
+    report.built = plan.build;
+    report.reason = plan.reason;
+    if (plan.build) {
+      const LocalBvhReport& bvh_report = acceleration.local->reports()[built];
+      const LocalBvhUse& use = uses[built];
+      ++built;
+      report.triangles = bvh_report.triangles;
+      report.predicted_cost = bvh_report.predicted_cost;
+      report.global_cost = bvh_report.global_cost;
+      report.rays = use.answered;
+      if (use.asked > 0) report.measured_cost = use.cost / static_cast<double>(use.asked);
+    }
+    reports.push_back(std::move(report));
+  }
+  return reports;
+}
+
+}  // namespace pah
