@@ -48,6 +48,13 @@ struct Binning {
 
 using Bins = std::array<std::array<Bin, max_bins>, 3>;
 
+// What a sweep notes. Kept for each thread: clearing it costs more than most nodes do.
+struct Halves {
+  std::array<Aabb, 2 * max_bins> boxes;
+  std::array<std::uint32_t, 2 * max_bins> counts;
+  std::array<float, 2 * max_bins> measures;
+};
+
 struct Split {
   float cost = std::numeric_limits<float>::infinity();
   int axis = 0;
@@ -201,8 +208,8 @@ class Builder {
              Split& best) const {
     // What would be left and right of a split before bin i stands at i - 1 of either half.
     const std::uint32_t splits = count - 1;
-    std::array<Aabb, 2 * max_bins> boxes;
-    std::array<std::uint32_t, 2 * max_bins> counts{};
+    static thread_local Halves halves;
+    auto& [boxes, counts, measures] = halves;
     Bin right;
     for (std::uint32_t i = splits; i > 0; --i) {
       right.extend(bins[i]);
@@ -215,7 +222,6 @@ class Builder {
       boxes[i] = left.box;
       counts[i] = left.count;
     }
-    std::array<float, 2 * max_bins> measures{};
     heuristic_.measure(std::span(boxes).first(2 * splits), std::span(measures).first(2 * splits));
     for (std::uint32_t i = 0; i < splits; ++i) {
       if (counts[i] == 0 || counts[splits + i] == 0) continue;

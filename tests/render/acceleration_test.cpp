@@ -1,0 +1,96 @@
+#include <pah/render/acceleration.hpp>
+#include <pah/render/render.hpp>
+#include <pah/scene/shapes.hpp>
+
+#include "catch.hpp"
+
+using namespace pah;
+
+namespace {
+
+// A ball on a floor under a bulb, with an area declared for the bulb.
+Scene scene_with_area() {
+  Scene scene;
+  PerspectiveCamera camera;
+  camera.position = {0, 2, 5};
+  camera.look_at = {0, 0.5, 0};
+  scene.camera = camera;
+  scene.film.width = 16;
+  scene.film.height = 12;
+  scene.render.samples = 2;
+  scene.materials.push_back({"grey", DiffuseMaterial{}});
+  scene.meshes = {make_mesh(SphereShape{}), make_mesh(RectangleShape{})};
+  for (std::uint32_t i = 0; i < 2; ++i) {
+    Instance instance;
+    instance.mesh = i;
+    scene.instances.push_back(instance);
+  }
+  scene.lights.push_back({"bulb", PointLight{DVec3(0, 4, 0), Vec3(10)}});
+  PointAreaDeclaration area;
+  area.light = "bulb";
+  area.far = 5;
+  scene.influence_areas.declared = {area};
+  return scene;
+}
+
+}  // namespace
+
+TEST_CASE("acceleration uses the areas that a scene declares, and changes no pixel") {
+  const Scene scene = scene_with_area();
+  const World world = make_world(scene);
+  const Acceleration acceleration = make_acceleration(world, scene);
+  CHECK(acceleration.name == "local");
+  REQUIRE(acceleration.local != nullptr);
+  RenderOptions options;
+  options.count_traversal = true;
+  const Film by_areas =
+      render(world, *acceleration.accelerator, scene.film, scene.render, options).film;
+  REQUIRE(acceleration.local->uses().size() == 1);
+  CHECK(acceleration.local->uses()[0].answered > 0);
+
+  const Acceleration oracle = make_acceleration(world, scene, "brute_force");
+  const Film expected = render(world, *oracle.accelerator, scene.film, scene.render).film;
+  REQUIRE(by_areas.pixels.size() == expected.pixels.size());
+  for (std::size_t i = 0; i < expected.pixels.size(); ++i)
+    CHECK(by_areas.pixels[i].sum == expected.pixels[i].sum);
+}
+
+TEST_CASE("declared areas are built, derived ones are not yet worth it") {
+  Scene scene = scene_with_area();
+  const World world = make_world(scene);
+  const Acceleration acceleration = make_acceleration(world, scene);
+  REQUIRE(acceleration.plans.size() == acceleration.areas.size());
+  CHECK(acceleration.areas.size() > 1);
+  for (std::size_t i = 0; i < acceleration.areas.size(); ++i) {
+    CHECK(acceleration.plans[i].build == acceleration.areas[i].declared);
+    CHECK(!acceleration.plans[i].reason.empty());
+  }
+  scene.influence_areas.declared.clear();
+  CHECK(make_acceleration(world, scene).name == "bvh");
+}
+
+TEST_CASE("an accelerator that is asked for by name is made, and no other") {
+  const Scene scene = scene_with_area();
+  const World world = make_world(scene);
+  for (const AcceleratorName& known : accelerator_names()) {
+    const Acceleration acceleration = make_acceleration(world, scene, known.name);
+    CHECK(acceleration.name == known.name);
+    CHECK((acceleration.local != nullptr) == (known.name == "local"));
+    for (const AreaPlan& plan : acceleration.plans)
+      if (known.name != "local") CHECK(!plan.build);
+  }
+  CHECK_THROWS_AS(make_acceleration(world, scene, "bvhh"), std::invalid_argument);
+}
+
+TEST_CASE("acceleration settings reach the builder") {
+  AccelerationSettings settings;
+  settings.heuristic = Heuristic::projected_area;
+  settings.split_axis = SplitAxis::facing;
+  settings.bins = 7;
+  settings.max_leaf_triangles = 3;
+  const LocalConfig config = local_config(settings);
+  CHECK(config.heuristic == Heuristic::projected_area);
+  CHECK(config.split == SplitAxis::facing);
+  CHECK(config.build.bins == 7);
+  CHECK(config.build.max_leaf == 3);
+}
