@@ -12,7 +12,7 @@ namespace pah {
 
 namespace {
 
-constexpr std::uint32_t max_bins = 64;
+constexpr std::uint32_t max_bins = BuildConfig::max_bins;
 // Ranges below this are not worth a task. The tree does not depend on it.
 constexpr std::size_t parallel_grain = 4096;
 
@@ -99,7 +99,7 @@ class Builder {
  public:
   Builder(std::vector<Item>& items, const BuildConfig& config, const BuildHeuristic& heuristic)
       : items_(items),
-        bins_(std::clamp(config.bins, 2U, max_bins)),
+        bins_(std::clamp(config.bins, BuildConfig::min_bins, max_bins)),
         max_leaf_(std::max(config.max_leaf, 1U)),
         side_by_side_(std::max(config.side_by_side, 1U)),
         heuristic_(heuristic),

@@ -9,6 +9,7 @@
 #include <pah/scene/world.hpp>
 
 #include "accel/build_local.hpp"
+#include "cli/film_size.hpp"
 #include "cli/interrupt.hpp"
 #include "io/output_file.hpp"
 #include "report/box_gltf.hpp"
@@ -38,10 +39,7 @@ void check_outputs(const InspectArguments& arguments) {
 void apply(const InspectArguments& arguments, FilmSettings& film) {
   film.width = arguments.width.value_or(film.width);
   film.height = arguments.height.value_or(film.height);
-  const auto pixels = static_cast<std::uint64_t>(film.width) * static_cast<unsigned>(film.height);
-  if (pixels > LoadLimits{}.film_pixels)
-    throw UsageError(fmt::format("a picture of {} x {} pixels is too large; at most {} pixels",
-                                 film.width, film.height, LoadLimits{}.film_pixels));
+  check_size(film);
 }
 
 struct TimedBvh {

@@ -14,6 +14,7 @@
 #include <pah/scene/world.hpp>
 
 #include "cli/console.hpp"
+#include "cli/film_size.hpp"
 #include "cli/interrupt.hpp"
 #include "io/output_file.hpp"
 #include "report/stats.hpp"
@@ -58,10 +59,7 @@ void apply(const RenderArguments& arguments, Scene& scene) {
   if (arguments.crop) scene.film.crop = arguments.crop;
 
   const FilmSettings& film = scene.film;
-  const auto pixels = static_cast<std::uint64_t>(film.width) * static_cast<unsigned>(film.height);
-  if (pixels > LoadLimits{}.film_pixels)
-    throw UsageError(fmt::format("a picture of {} x {} pixels is too large; at most {} pixels",
-                                 film.width, film.height, LoadLimits{}.film_pixels));
+  check_size(film);
   if (film.crop && (film.crop->x1 > film.width || film.crop->y1 > film.height))
     throw UsageError(fmt::format("the crop {},{},{},{} reaches beyond the {} x {} picture",
                                  film.crop->x0, film.crop->x1, film.crop->y0, film.crop->y1,

@@ -4,6 +4,8 @@
 #include <limits>
 #include <pah/geometry/convex_polygon.hpp>
 
+#include "geometry/rounding.hpp"
+
 namespace pah {
 
 namespace {
@@ -91,8 +93,7 @@ int orientation(const DVec2& a, const DVec2& b, const DVec2& c) {
   const double right = (a.y - c.y) * (b.x - c.x);
   const double determinant = left - right;
   // Shewchuk 1997, figure 21: ccwerrboundA.
-  constexpr double unit_roundoff = std::numeric_limits<double>::epsilon() / 2;
-  constexpr double bound = (3 + 16 * unit_roundoff) * unit_roundoff;
+  constexpr double bound = (3 + 16 * double_unit_roundoff) * double_unit_roundoff;
   if (std::abs(determinant) > bound * (std::abs(left) + std::abs(right))) return sign(determinant);
   return exact_orientation(a, b, c);
 }

@@ -2,17 +2,17 @@
 #include <cmath>
 #include <pah/geometry/region.hpp>
 
+#include "geometry/rounding.hpp"
+
 namespace pah {
 
 namespace {
-
-constexpr double unit_roundoff = std::numeric_limits<double>::epsilon() / 2;
 
 // Local coordinates are three dot products of a rounded difference with axes that are orthonormal
 // up to rounding themselves: within the region their error is below 4 + 3 + 4 unit roundoffs of its
 // extent. One slack covers that; shape_of() pushes vertices out by four, for the error of a point
 // on either end of a segment, of an exit distance, and of the vertices.
-double rounding_slack(double extent) { return 16 * unit_roundoff * extent; }
+double rounding_slack(double extent) { return 16 * double_unit_roundoff * extent; }
 
 double extent_of(const Obb& b) { return b.half_size.x + b.half_size.y + b.half_size.z; }
 double extent_of(const Frustum& f) { return f.far * (1 + f.tan_half.x + f.tan_half.y); }
@@ -76,7 +76,7 @@ float exit_of(const R& region, const Ray& ray) {
   if (!all_non_negative(room)) return 0;
   const Margins slope = slopes(region, d);
   const DVec3 size = glm::abs(DVec3(ray.direction));
-  const double error = 16 * unit_roundoff * slope_scale(region) * (size.x + size.y + size.z);
+  const double error = 16 * double_unit_roundoff * slope_scale(region) * (size.x + size.y + size.z);
   double exit = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < room.size(); ++i) {
     const double approach = error - slope[i];
@@ -93,7 +93,7 @@ float exit_of(const Aabb& box, const Ray& ray) {
     if (d == 0) continue;
     const double face = d > 0 ? box.max[k] : box.min[k];
     // Difference and quotient each round once.
-    exit = std::min(exit, (face - ray.origin[k]) / d * (1 - 4 * unit_roundoff));
+    exit = std::min(exit, (face - ray.origin[k]) / d * (1 - 4 * double_unit_roundoff));
   }
   return round_down(exit);
 }
@@ -119,7 +119,7 @@ void fill_vertices(RegionShape& shape, const DVec3& origin, Corner corner) {
     high = glm::max(high, v);
   }
   // Adding the origin rounds once more.
-  const DVec3 slack = 2 * unit_roundoff * (glm::abs(origin) + glm::max(glm::abs(low), high));
+  const DVec3 slack = 2 * double_unit_roundoff * (glm::abs(origin) + glm::max(glm::abs(low), high));
   shape.box.min = round_down(origin + low - slack);
   shape.box.max = -round_down(-(origin + high + slack));
 }
@@ -188,11 +188,8 @@ bool contains(const Region& region, const Vec3& point) {
 
 bool contains(const Region& region, const Aabb& box) {
   if (box.empty()) return true;
-  for (int i = 0; i < 8; ++i) {
-    const Vec3 corner((i & 1) != 0 ? box.max.x : box.min.x, (i & 2) != 0 ? box.max.y : box.min.y,
-                      (i & 4) != 0 ? box.max.z : box.min.z);
-    if (!contains(region, corner)) return false;
-  }
+  for (unsigned i = 0; i < 8; ++i)
+    if (!contains(region, box.corner(i))) return false;
   return true;
 }
 

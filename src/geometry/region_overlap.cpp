@@ -9,11 +9,11 @@
 #include <pah/geometry/region.hpp>
 #include <span>
 
+#include "geometry/rounding.hpp"
+
 namespace pah {
 
 namespace {
-
-constexpr double unit_roundoff = std::numeric_limits<double>::epsilon() / 2;
 
 double largest_coordinate(std::span<const DVec3> points) {
   double largest = 0;
@@ -36,7 +36,7 @@ class SeparatingAxisTest {
     // Each dot product errs by at most 3 unit roundoffs of |axis|_1 * reach, the rounded
     // difference adds one; on either side, and doubled for good measure.
     const double axis_length = std::abs(axis.x) + std::abs(axis.y) + std::abs(axis.z);
-    const double margin = 16 * unit_roundoff * axis_length * reach_;
+    const double margin = 16 * double_unit_roundoff * axis_length * reach_;
     return a.low - b.high > margin || b.low - a.high > margin;
   }
 
@@ -82,10 +82,7 @@ bool overlaps(const Aabb& a, const Aabb& b) {
 bool overlaps(const RegionShape& region, const Aabb& box) {
   if (!overlaps(region.box, box)) return false;
   std::array<DVec3, 8> corners;
-  for (std::size_t i = 0; i < 8; ++i)
-    corners[i] = DVec3((i & 1) != 0 ? box.max.x : box.min.x, (i & 2) != 0 ? box.max.y : box.min.y,
-                       (i & 4) != 0 ? box.max.z : box.min.z) -
-                 region.origin;
+  for (unsigned i = 0; i < 8; ++i) corners[i] = DVec3(box.corner(i)) - region.origin;
   constexpr std::array edges{DVec3(1, 0, 0), DVec3(0, 1, 0), DVec3(0, 0, 1)};
   return !separated(region, corners, edges, edges);
 }

@@ -4,6 +4,7 @@
 namespace pah {
 
 inline constexpr float unit_roundoff = 0x1p-24F;
+inline constexpr double double_unit_roundoff = 0x1p-53;
 
 // n roundings of float in a row change a value by a factor within 1 +- rounding_bound(n).
 [[nodiscard]] constexpr float rounding_bound(int n) {

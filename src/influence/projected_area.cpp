@@ -2,6 +2,7 @@
 #include <cmath>
 #include <pah/influence/influence_area.hpp>
 
+#include "geometry/solid_angle.hpp"
 #include "influence/visible_patches.hpp"
 
 namespace pah {
@@ -82,17 +83,6 @@ PictureFrame frame_of(const PointArea& area) {
   frame.near = area.frustum.near;
   frame.far = area.frustum.far;
   return frame;
-}
-
-// The solid angle of a triangle whose plane passes the eye at a distance, with the product of that
-// distance and twice its area: Van Oosterom and Strackee, IEEE Trans. Biomed. Eng. 1983, eq. 8.
-double solid_angle(const DVec3& a, const DVec3& b, const DVec3& c, double determinant) {
-  const double la = glm::length(a);
-  const double lb = glm::length(b);
-  const double lc = glm::length(c);
-  const double denominator =
-      la * lb * lc + glm::dot(a, b) * lc + glm::dot(a, c) * lb + glm::dot(b, c) * la;
-  return 2 * std::atan2(determinant, denominator);
 }
 
 double patch_area(std::span<const DVec2> patch, PointMeasure measure) {
@@ -202,7 +192,7 @@ ConvexPolygon projected_hull(const InfluenceArea& area, const Aabb& box) {
   };
   const auto outline = [&](const BoxSector& sector) {
     for (const std::uint8_t i : outline_from(sector).span())
-      points.push_back(*project(area, corner_of(box, i)));
+      points.push_back(*project(area, DVec3(box.corner(i))));
   };
   if (const auto* plane = std::get_if<PlaneArea>(&area)) {
     const RelativeBox relative(box, plane->box.center);

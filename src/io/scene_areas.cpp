@@ -1,4 +1,6 @@
 // The influence_areas and acceleration sections.
+#include <pah/scene/areas.hpp>
+
 #include "io/scene_reading.hpp"
 
 namespace pah {
@@ -6,22 +8,11 @@ namespace {
 
 using Kind = YamlNode::Kind;
 
-// Whether the rays of a light, or of the camera, meet in a point or are parallel.
-enum class Bundle { point, parallel, neither };
-
-Bundle bundle_of(const Scene& scene, std::optional<LightId> light) {
-  if (!light) {
-    const auto* camera = std::get_if<PerspectiveCamera>(&scene.camera);
-    if (camera == nullptr) return Bundle::parallel;
-    return camera->aperture_radius == 0 ? Bundle::point : Bundle::neither;
-  }
-  const auto& model = scene.lights[*light].model;
-  if (std::holds_alternative<PointLight>(model) || std::holds_alternative<SpotLight>(model))
-    return Bundle::point;
-  return std::holds_alternative<DirectionalLight>(model) ? Bundle::parallel : Bundle::neither;
+BundleShape shape_of(const Scene& scene, std::optional<LightId> light) {
+  return light ? bundle_shape(scene.lights[*light]) : bundle_shape(scene.camera);
 }
 
-bool read_light_name(SceneReading& reading, MapReader& map, std::string& name, Bundle wanted) {
+bool read_light_name(SceneReading& reading, MapReader& map, std::string& name, BundleShape wanted) {
   const YamlNode* node = map.find("light", true);
   if (node == nullptr) return false;
   std::optional<LightId> light;
@@ -30,9 +21,9 @@ bool read_light_name(SceneReading& reading, MapReader& map, std::string& name, B
     if (!light) return false;
   }
   name = node->text;
-  if (bundle_of(reading.scene, light) == wanted) return true;
+  if (shape_of(reading.scene, light) == wanted) return true;
   map.error("light", "the rays of '" + name + "' " +
-                         (wanted == Bundle::point
+                         (wanted == BundleShape::point
                               ? "do not meet in a point: a point area takes a point or spot light, "
                                 "or a perspective camera without an aperture"
                               : "are not parallel: a plane area takes a directional light or an "
@@ -47,7 +38,7 @@ void read_nonzero(MapReader& map, std::string_view key, DVec3& value) {
 
 PlaneAreaDeclaration read_plane(SceneReading& reading, MapReader& map) {
   PlaneAreaDeclaration area;
-  read_light_name(reading, map, area.light, Bundle::parallel);
+  read_light_name(reading, map, area.light, BundleShape::parallel);
   map.optional("position", area.position);
   read_nonzero(map, "direction", area.direction);
   map.optional("size", area.size, positive);
@@ -57,7 +48,7 @@ PlaneAreaDeclaration read_plane(SceneReading& reading, MapReader& map) {
 
 PointAreaDeclaration read_point(SceneReading& reading, MapReader& map) {
   PointAreaDeclaration area;
-  read_light_name(reading, map, area.light, Bundle::point);
+  read_light_name(reading, map, area.light, BundleShape::point);
   read_nonzero(map, "forward", area.forward);
   map.optional("fov", area.fov, Range{0, 180, true, true});
   map.optional("near", area.near, not_negative);
@@ -122,7 +113,7 @@ void read_acceleration(SceneReading& reading, const YamlNode* node) {
                                        {"octree", TopLevelKind::octree}});
     int depth = 0;
     if (map.optional("octree_depth", depth, 1, 10)) settings.octree_depth = depth;
-    map.optional("bins", settings.bins, 2, 64);
+    map.optional("bins", settings.bins, int{BuildConfig::min_bins}, int{BuildConfig::max_bins});
     map.optional("max_leaf_triangles", settings.max_leaf_triangles, 1, 64);
   });
 }

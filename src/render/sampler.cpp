@@ -1,15 +1,9 @@
 #include "render/sampler.hpp"
 
+#include "scene/mix_bits.hpp"
+
 namespace pah {
 namespace {
-
-// Stafford's variant 13 of the 64-bit finalizer of MurmurHash3: every bit of the input flips every
-// bit of the output with probability 1/2.
-std::uint64_t mix(std::uint64_t x) {
-  x = (x ^ (x >> 30)) * 0xBF58476D1CE4E5B9ULL;
-  x = (x ^ (x >> 27)) * 0x94D049BB133111EBULL;
-  return x ^ (x >> 31);
-}
 
 std::uint32_t reverse_bits(std::uint32_t x) {
   x = (x << 16) | (x >> 16);
@@ -57,16 +51,17 @@ std::uint32_t low(std::uint64_t x) { return static_cast<std::uint32_t>(x); }
 }  // namespace
 
 Sampler::Sampler(std::uint32_t x, std::uint32_t y, std::uint32_t index, std::uint64_t seed)
-    : stream_(mix(mix(seed) + ((static_cast<std::uint64_t>(y) << 32) | x))), index_(index) {}
+    : stream_(mix_bits(mix_bits(seed) + ((static_cast<std::uint64_t>(y) << 32) | x))),
+      index_(index) {}
 
 float Sampler::next_1d() {
-  const std::uint64_t key = mix(stream_ + dimension_++);
+  const std::uint64_t key = mix_bits(stream_ + dimension_++);
   return scrambled_fraction(shuffled_index(index_, low(key)), high(key));
 }
 
 Vec2 Sampler::next_2d() {
-  const std::uint64_t key = mix(stream_ + dimension_++);
-  const std::uint64_t key_y = mix(key);
+  const std::uint64_t key = mix_bits(stream_ + dimension_++);
+  const std::uint64_t key_y = mix_bits(key);
   const std::uint32_t index = shuffled_index(index_, low(key));
   return {scrambled_fraction(index, high(key)),
           scrambled_fraction(sobol_y_digits(index), high(key_y))};

@@ -1,14 +1,13 @@
 #include "render/shading_frame.hpp"
 
 #include <cmath>
+#include <pah/geometry/basis.hpp>
 
 namespace pah {
 
 ShadingFrame make_frame(const Vec3& n) {
-  const float sign = std::copysign(1.0F, n.z);
-  const float a = -1 / (sign + n.z);
-  const float b = n.x * n.y * a;
-  return {{1 + sign * n.x * n.x * a, sign * b, -sign * n.x}, {b, sign + n.y * n.y * a, -n.y}, n};
+  const glm::mat3 basis = basis_about(n);
+  return {basis[0], basis[1], n};
 }
 
 ShadingFrame make_frame(const Vec3& normal, const Vec3& tangent) {

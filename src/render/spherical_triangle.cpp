@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "geometry/solid_angle.hpp"
+
 namespace pah {
 namespace {
 
@@ -18,11 +20,7 @@ double solid_angle(const Triangle& triangle, const Vec3& from) {
   const DVec3 a = DVec3(triangle.a) - DVec3(from);
   const DVec3 b = DVec3(triangle.b) - DVec3(from);
   const DVec3 c = DVec3(triangle.c) - DVec3(from);
-  const double la = glm::length(a), lb = glm::length(b), lc = glm::length(c);
-  const double numerator = std::abs(glm::dot(a, glm::cross(b, c)));
-  const double denominator =
-      la * lb * lc + glm::dot(a, b) * lc + glm::dot(a, c) * lb + glm::dot(b, c) * la;
-  return 2 * std::atan2(numerator, denominator);
+  return solid_angle(a, b, c, std::abs(glm::dot(a, glm::cross(b, c))));
 }
 
 bool sampled_by_solid_angle(double omega) {

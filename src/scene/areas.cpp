@@ -172,28 +172,21 @@ std::uint32_t bundle_of(const World& world, const std::string& light) {
   return static_cast<std::uint32_t>(found - world.lights.begin());
 }
 
-// Where the rays of a bundle meet, or nothing.
-std::optional<DVec3> meeting_point(const World& world, std::uint32_t bundle) {
-  if (bundle == camera_bundle) {
-    const auto* camera = std::get_if<PerspectiveCamera>(&world.camera);
-    if (camera != nullptr && camera->aperture_radius == 0) return camera->position;
-    return {};
-  }
-  const auto& model = world.lights[bundle].model;
-  if (const auto* point = std::get_if<PointLight>(&model)) return point->position;
-  if (const auto* spot = std::get_if<SpotLight>(&model)) return spot->position;
-  return {};
+BundleShape shape_of(const World& world, std::uint32_t bundle) {
+  return bundle == camera_bundle ? bundle_shape(world.camera) : bundle_shape(world.lights[bundle]);
 }
 
-bool is_parallel(const World& world, std::uint32_t bundle) {
-  return bundle == camera_bundle
-             ? std::holds_alternative<OrthographicCamera>(world.camera)
-             : std::holds_alternative<DirectionalLight>(world.lights[bundle].model);
+// Where the rays of a bundle meet.
+DVec3 meeting_point(const World& world, std::uint32_t bundle) {
+  if (bundle == camera_bundle) return std::get<PerspectiveCamera>(world.camera).position;
+  const auto& model = world.lights[bundle].model;
+  if (const auto* point = std::get_if<PointLight>(&model)) return point->position;
+  return std::get<SpotLight>(model).position;
 }
 
 InfluenceArea area_of(const World& world, std::uint32_t bundle,
                       const PlaneAreaDeclaration& declared) {
-  if (!is_parallel(world, bundle))
+  if (shape_of(world, bundle) != BundleShape::parallel)
     throw std::invalid_argument("a plane area is declared for '" + declared.light +
                                 "', whose rays are not parallel");
   return make_plane_area(declared.position - world.origin, declared.direction, declared.size,
@@ -202,12 +195,11 @@ InfluenceArea area_of(const World& world, std::uint32_t bundle,
 
 InfluenceArea area_of(const World& world, std::uint32_t bundle,
                       const PointAreaDeclaration& declared) {
-  const auto eye = meeting_point(world, bundle);
-  if (!eye)
+  if (shape_of(world, bundle) != BundleShape::point)
     throw std::invalid_argument("a point area is declared for '" + declared.light +
                                 "', whose rays do not meet in a point");
-  return make_point_area(as_rays_see_it(*eye), declared.forward, glm::radians(declared.fov),
-                         declared.near, declared.far,
+  return make_point_area(as_rays_see_it(meeting_point(world, bundle)), declared.forward,
+                         glm::radians(declared.fov), declared.near, declared.far,
                          bundle == camera_bundle ? PointMeasure::plane : PointMeasure::solid_angle);
 }
 
@@ -231,6 +223,20 @@ void number_names(std::vector<SceneArea>& areas) {
 }
 
 }  // namespace
+
+BundleShape bundle_shape(const Light& light) {
+  if (std::holds_alternative<PointLight>(light.model) ||
+      std::holds_alternative<SpotLight>(light.model))
+    return BundleShape::point;
+  return std::holds_alternative<DirectionalLight>(light.model) ? BundleShape::parallel
+                                                               : BundleShape::neither;
+}
+
+BundleShape bundle_shape(const Camera& camera) {
+  const auto* perspective = std::get_if<PerspectiveCamera>(&camera);
+  if (perspective == nullptr) return BundleShape::parallel;
+  return perspective->aperture_radius == 0 ? BundleShape::point : BundleShape::neither;
+}
 
 std::string_view type_name(const InfluenceArea& area) {
   return std::holds_alternative<PlaneArea>(area) ? "plane" : "point";

@@ -3,9 +3,12 @@
 #include <cmath>
 #include <cstddef>
 #include <numbers>
+#include <pah/geometry/basis.hpp>
 #include <pah/scene/placement.hpp>
 #include <stdexcept>
 #include <unordered_map>
+
+#include "scene/mix_bits.hpp"
 
 namespace pah {
 namespace {
@@ -21,12 +24,7 @@ void require(bool condition, const char* message) {
 // A uniform number in [0, 1) that depends on its arguments alone: a counter through the finaliser
 // of SplitMix64 (Steele, Lea, Flood, "Fast Splittable Pseudorandom Number Generators", 2014).
 double random_number(std::uint64_t seed, std::uint64_t index, std::uint64_t dimension) {
-  const auto mix = [](std::uint64_t z) {
-    z += 0x9E3779B97F4A7C15ULL;
-    z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9ULL;
-    z = (z ^ (z >> 27)) * 0x94D049BB133111EBULL;
-    return z ^ (z >> 31);
-  };
+  const auto mix = [](std::uint64_t z) { return mix_bits(z + 0x9E3779B97F4A7C15ULL); };
   return static_cast<double>(mix(mix(mix(seed) ^ index) ^ dimension) >> 11) * 0x1p-53;
 }
 
@@ -41,16 +39,11 @@ glm::dmat4x3 rotation_about_y(double radians) {
   return {DVec3{c, 0, -s}, {0, 1, 0}, {s, 0, c}, {0, 0, 0}};
 }
 
-// A rotation that takes +y to the unit vector n (Duff et al., "Building an Orthonormal Basis,
-// Revisited", JCGT 2017, with the axes renamed).
+// A rotation that takes +y to the unit vector n: a basis about n with the axes renamed.
 glm::dmat4x3 rotation_to(const DVec3& n) {
-  const double sign = std::copysign(1.0, n.y);
-  const double a = -1 / (sign + n.y);
-  const double b = n.z * n.x * a;
-  return {DVec3{sign + n.x * n.x * a, -n.x, b},
-          n,
-          {sign * b, -sign * n.z, 1 + sign * n.z * n.z * a},
-          {0, 0, 0}};
+  const DMat3 basis = basis_about(DVec3(n.z, n.x, n.y));
+  const auto renamed = [](const DVec3& v) { return DVec3(v.y, v.z, v.x); };
+  return {renamed(basis[1]), n, renamed(basis[0]), {0, 0, 0}};
 }
 
 glm::dmat4x3 scaling(double s) { return {DVec3{s, 0, 0}, {0, s, 0}, {0, 0, s}, {0, 0, 0}}; }

@@ -126,7 +126,7 @@ TEST_CASE("The thesis's perspective division mirrors what is behind the eye") {
   const Aabb box{{0.5F, 3, -1}, {4, 6, 1}};
   std::vector<DVec2> printed;
   for (const std::uint8_t i : outline_from(sector_of_eye(area.frustum.eye, box)).span()) {
-    const DVec3 p = glm::transpose(area.frustum.axes) * (corner_of(box, i) - area.frustum.eye);
+    const DVec3 p = glm::transpose(area.frustum.axes) * (DVec3(box.corner(i)) - area.frustum.eye);
     printed.emplace_back(p.x / p.z, p.y / p.z);
   }
   Shapes shapes(4);

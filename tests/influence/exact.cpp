@@ -118,7 +118,7 @@ std::vector<Face> faces_of(const Aabb& box, const Frame& frame) {
       const unsigned u = 1U << ((k + 1) % 3), v = 1U << ((k + 2) % 3), base = side << k;
       Face face;
       for (const unsigned corner : {base, base | u, base | u | v, base | v})
-        face.push_back(frame.to_local(exactly(corner_of(box, corner))));
+        face.push_back(frame.to_local(exactly(pah::DVec3(box.corner(corner)))));
       faces.push_back(std::move(face));
     }
   return faces;
@@ -132,7 +132,7 @@ std::vector<Point> corners_of(const Region& region) {
       return Number((i >> k & 1U) != 0 ? high : low);
     };
     if (const auto* b = std::get_if<Aabb>(&region)) {
-      corners.push_back(exactly(corner_of(*b, i)));
+      corners.push_back(exactly(pah::DVec3(b->corner(i))));
     } else if (const auto* o = std::get_if<Obb>(&region)) {
       const DVec3& h = o->half_size;
       corners.push_back({pick(0, -h.x, h.x), pick(1, -h.y, h.y), pick(2, -h.z, h.z)});
@@ -212,7 +212,7 @@ bool is_projected_hull(const InfluenceArea& area, const Aabb& box,
   const Frame frame = frame_of(region_of(area));
   std::vector<Point2> points;
   for (unsigned i = 0; i < 8; ++i)
-    points.push_back(project(area, frame.to_local(exactly(corner_of(box, i)))));
+    points.push_back(project(area, frame.to_local(exactly(pah::DVec3(box.corner(i))))));
   Polygon2 outline;
   for (const std::uint8_t i : corners) outline.push_back(points[i]);
   return outline.area() == hull_of(points).area();  // the first is signed

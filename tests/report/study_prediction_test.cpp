@@ -18,7 +18,7 @@ StudyMesh mesh_of(const test::Soup& soup) { return {soup.name, soup.positions, s
 StudyMesh box_mesh(const Vec3& low, const Vec3& high) {
   StudyMesh mesh{"box", {}, {}};
   const Aabb box{low, high};
-  for (unsigned i = 0; i < 8; ++i) mesh.positions.emplace_back(corner_of(box, i));
+  for (unsigned i = 0; i < 8; ++i) mesh.positions.emplace_back(box.corner(i));
   constexpr std::array<std::array<std::uint32_t, 4>, 6> faces{
       {{0, 1, 3, 2}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 3, 7, 6}, {0, 2, 6, 4}, {1, 3, 7, 5}}};
   for (const auto& [a, b, c, d] : faces) {

@@ -42,7 +42,8 @@ struct SurfaceArea {
 };
 
 struct BuildConfig {
-  // Per axis, 2 to 64: the borders between bins are the candidates for a split.
+  // Per axis, min_bins to max_bins: the borders between bins are the candidates for a split.
+  static constexpr std::uint32_t min_bins = 2, max_bins = 64;
   std::uint32_t bins = 16;
   // Triangles, 1 to 32: larger leaves are split whatever the cost.
   std::uint32_t max_leaf = 8;

@@ -24,6 +24,11 @@ struct Aabb {
   [[nodiscard]] Vec3 extent() const { return max - min; }
   // Halved before adding, so that it is finite for every finite box.
   [[nodiscard]] Vec3 center() const { return 0.5F * min + 0.5F * max; }
+  // Bit k of i tells whether it lies at the maximum of axis k.
+  [[nodiscard]] Vec3 corner(unsigned i) const {
+    return {(i & 1U) != 0 ? max.x : min.x, (i & 2U) != 0 ? max.y : min.y,
+            (i & 4U) != 0 ? max.z : min.z};
+  }
 
   friend bool operator==(const Aabb&, const Aabb&) = default;
 };

@@ -41,11 +41,6 @@ struct BoxSector {
   return {side(0), side(1), side(2)};
 }
 
-[[nodiscard]] inline DVec3 corner_of(const Aabb& box, unsigned i) {
-  return {(i & 1U) != 0 ? box.max.x : box.min.x, (i & 2U) != 0 ? box.max.y : box.min.y,
-          (i & 4U) != 0 ? box.max.z : box.min.z};
-}
-
 // Corners in order: 4 where one face is seen, 6 where two or three are, none from inside.
 struct BoxOutline {
   std::array<std::uint8_t, 6> corners{};

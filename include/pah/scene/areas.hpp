@@ -17,6 +17,12 @@ struct SceneArea {
   bool declared = false;             // by hand; else derived
 };
 
+// How the rays of a light or a camera lie to each other: only those that meet in a point or run in
+// parallel have influence areas.
+enum class BundleShape { point, parallel, neither };
+[[nodiscard]] BundleShape bundle_shape(const Light& light);
+[[nodiscard]] BundleShape bundle_shape(const Camera& camera);
+
 // "plane" or "point", as in the scene language.
 [[nodiscard]] std::string_view type_name(const InfluenceArea& area);
 

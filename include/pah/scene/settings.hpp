@@ -72,8 +72,10 @@ struct AccelerationSettings {
   SplitAxis split_axis = SplitAxis::best;
   TopLevelKind top_level = TopLevelKind::automatic;
   std::optional<int> octree_depth;  // in [1, 10]; without effect so far
-  int bins = 16;                    // in [2, 64]; of local BVHs, as the next
-  int max_leaf_triangles = 8;       // in [1, 64]; leaves hold 32 at most, whatever it says
+  // Of local BVHs: see BuildConfig, whose range and default these are; leaves hold 32 triangles at
+  // most, whatever is said.
+  int bins = static_cast<int>(BuildConfig{}.bins);
+  int max_leaf_triangles = static_cast<int>(BuildConfig{}.max_leaf);  // in [1, 64]
 };
 
 }  // namespace pah
