@@ -52,7 +52,7 @@ TEST_CASE("allowed includes pass") {
        "// #include <CGAL/box.h> in a comment\n"},
       {"src/scene/texture_store.cpp", "#include <OpenImageIO/texture.h>\n"},
       {"src/parallel/parallel_for.cpp", "#include <tbb/parallel_for.h>\n"},
-      {"src/io/yaml.cpp", "#include <yaml-cpp/yaml.h>\n#include <pah/render/film.hpp>\n"},
+      {"src/io/yaml/tree.cpp", "#include <yaml-cpp/yaml.h>\n#include <pah/render/film.hpp>\n"},
       {"src/cli/main.cpp",
        "#include <CLI/CLI.hpp>\n#include <unistd.h>\n#include \"report/stats.hpp\"\n"},
   });
