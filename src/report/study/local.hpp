@@ -2,9 +2,9 @@
 #pragma once
 
 #include "bvh/build_bvh.hpp"
-#include "report/study.hpp"
-#include "report/study_areas.hpp"
-#include "report/study_work.hpp"
+#include "report/study/areas.hpp"
+#include "report/study/study.hpp"
+#include "report/study/work.hpp"
 
 namespace pah {
 

@@ -1,4 +1,4 @@
-#include "report/study_rays.hpp"
+#include "report/study/rays.hpp"
 
 #include <cmath>
 #include <random>

@@ -1,7 +1,7 @@
 // Experiment 1: what a heuristic says a ray will cost, and what it does cost.
 #include <pah/influence/bundle_area.hpp>
 
-#include "report/study_local.hpp"
+#include "report/study/local.hpp"
 
 namespace pah {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "report/study_means.hpp"
+#include "report/study/means.hpp"
 
 namespace pah {
 namespace {

@@ -1,4 +1,4 @@
-#include "report/study_areas.hpp"
+#include "report/study/areas.hpp"
 
 #include <cmath>
 #include <numbers>

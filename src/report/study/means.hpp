@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "report/study.hpp"
+#include "report/study/study.hpp"
 
 namespace pah {
 

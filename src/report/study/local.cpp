@@ -1,4 +1,4 @@
-#include "report/study_local.hpp"
+#include "report/study/local.hpp"
 
 #include "accel/bundle_measure.hpp"
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "bvh/build_bvh.hpp"
-#include "report/study_rays.hpp"
+#include "report/study/rays.hpp"
 
 namespace pah {
 

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "report/study_means.hpp"
+#include "report/study/means.hpp"
 
 namespace pah {
 namespace {

@@ -9,7 +9,7 @@
 #include <array>
 
 #include "io/output_file.hpp"
-#include "report/study_means.hpp"
+#include "report/study/means.hpp"
 
 namespace pah {
 namespace {

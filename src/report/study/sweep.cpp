@@ -1,5 +1,5 @@
 // Experiment 3: one parameter of the build at a time, the others at their defaults.
-#include "report/study_local.hpp"
+#include "report/study/local.hpp"
 
 namespace pah {
 namespace {

@@ -1,4 +1,4 @@
-#include "report/study_means.hpp"
+#include "report/study/means.hpp"
 
 #include <algorithm>
 

@@ -1,8 +1,8 @@
-#include "report/study.hpp"
+#include "report/study/study.hpp"
 
 #include <numeric>
 
-#include "report/study_local.hpp"
+#include "report/study/local.hpp"
 
 namespace pah {
 namespace {

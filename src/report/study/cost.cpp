@@ -3,7 +3,7 @@
 // costs local + (1 - share) * global instead of global.
 #include <ctime>
 
-#include "report/study_local.hpp"
+#include "report/study/local.hpp"
 
 namespace pah {
 namespace {

@@ -1,7 +1,7 @@
 // The study's rows as they are, for other tools.
 #include <fmt/format.h>
 
-#include "report/study.hpp"
+#include "report/study/study.hpp"
 
 namespace pah {
 namespace {

@@ -1,7 +1,7 @@
 // Which influence areas are studied of a mesh.
 #pragma once
 
-#include "report/study.hpp"
+#include "report/study/study.hpp"
 
 namespace pah {
 

@@ -1,4 +1,4 @@
-#include "report/study_work.hpp"
+#include "report/study/work.hpp"
 
 #include <algorithm>
 #include <array>
