@@ -11,10 +11,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// geometry, parallel | influence, bvh | accel, scene | render | io | report | cli
+// geometry, image, parallel | influence, bvh | accel, scene | render | io | report | cli
 const std::map<std::string, int, std::less<>> ranks{
-    {"geometry", 0}, {"parallel", 0}, {"influence", 1}, {"bvh", 1},    {"accel", 2},
-    {"scene", 2},    {"render", 3},   {"io", 4},        {"report", 5}, {"cli", 6}};
+    {"geometry", 0}, {"image", 0},  {"parallel", 0}, {"influence", 1}, {"bvh", 1}, {"accel", 2},
+    {"scene", 2},    {"render", 3}, {"io", 4},       {"report", 5},    {"cli", 6}};
 
 // A folder below a module's own.
 struct Floor {

@@ -1,6 +1,5 @@
-// The textures section, and colours and scalars that a texture may stand for.
-#include <cmath>
-
+// The textures section, and colors and scalars that a texture may stand for.
+#include "image/srgb.hpp"
 #include "io/image_header.hpp"
 #include "io/scene/reading.hpp"
 
@@ -28,7 +27,7 @@ TextureId shared_image(SceneReading& reading, const ImageTexture& image) {
   return entry->second;
 }
 
-// The texture as numbers: an image of unstated colour space is then linear.
+// The texture as numbers: an image of unstated color space is then linear.
 TextureId as_numbers(SceneReading& reading, TextureId id) {
   const auto* image = std::get_if<ImageTexture>(&reading.scene.textures[id]);
   if (image == nullptr || image->color_space != ColorSpace::automatic) return id;
@@ -87,12 +86,7 @@ std::optional<Texture> read_image_texture(SceneReading& reading, MapReader& map)
   return texture;
 }
 
-// IEC 61966-2-1.
-double linear_from_srgb(double value) {
-  return value <= 0.04045 ? value / 12.92 : std::pow((value + 0.055) / 1.055, 2.4);
-}
-
-// "#rrggbb" to a linear colour; false if it is not one.
+// "#rrggbb" to a linear color; false if it is not one.
 bool parse_hex_color(const std::string& text, Vec3& value) {
   if (text.size() != 7 || text[0] != '#' ||
       text.find_first_not_of("0123456789abcdefABCDEF", 1) != std::string::npos)
