@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <pah/image/compare.hpp>
 #include <pah/io/image_file.hpp>
 
 #include "report/json_value.hpp"

@@ -13,7 +13,7 @@
 #include "cli/interrupt.hpp"
 #include "io/output_file.hpp"
 #include "report/box_gltf.hpp"
-#include "report/false_colour.hpp"
+#include "report/false_color.hpp"
 #include "report/inspect_report.hpp"
 
 namespace pah::cli {

@@ -11,7 +11,7 @@
 
 #include "cli/console.hpp"
 #include "io/output_file.hpp"
-#include "report/study.hpp"
+#include "report/study/study.hpp"
 
 namespace pah::cli {
 namespace {

@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <pah/geometry/vec.hpp>
 #include <pah/io/image_file.hpp>
 #include <string_view>
 
+#include "image/srgb.hpp"
 #include "io/output_file.hpp"
 
 namespace pah {
@@ -58,14 +60,6 @@ const Format& format_of(const fs::path& file) {
                           "; available are " + available);
 }
 
-// IEC 61966-2-1, both ways.
-float srgb_from_linear(float x) {
-  return x <= 0.0031308F ? 12.92F * x : 1.055F * std::pow(x, 1 / 2.4F) - 0.055F;
-}
-float linear_from_srgb(float x) {
-  return x <= 0.04045F ? x / 12.92F : std::pow((x + 0.055F) / 1.055F, 2.4F);
-}
-
 // Into [low, high]; what is not a number becomes low.
 float clamped(float x, float low, float high) { return x > low ? std::min(x, high) : low; }
 
@@ -91,7 +85,7 @@ std::vector<float> rgbe_pixels(const Image& image) {
   return values;
 }
 
-// Colours and directions do with 16 bits; distances and variances do not.
+// Colors and directions do with 16 bits; distances and variances do not.
 bool fits_half(const ImageLayer& layer) {
   return layer.name.empty() || layer.name == "albedo" || layer.name == "normal";
 }

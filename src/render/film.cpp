@@ -2,7 +2,6 @@
 #include <cmath>
 #include <limits>
 #include <pah/render/film.hpp>
-#include <stdexcept>
 
 namespace pah {
 namespace {
@@ -79,31 +78,6 @@ ErrorEstimate estimate_error(const Film& film) {
   // The last is the bias of a ratio of two estimates, of relative order 1 / samples.
   const double margin = 1.96 * std::sqrt(spread / n) + bias / n;
   return {mse, relmse, std::max(relmse - margin, 0.0), relmse + margin};
-}
-
-ImageDifference compare_images(const Image& a, const Image& b) {
-  if (a.width != b.width || a.height != b.height || a.pixels.size() != b.pixels.size())
-    throw std::invalid_argument("pictures of different sizes: " + std::to_string(a.width) + " x " +
-                                std::to_string(a.height) + " and " + std::to_string(b.width) +
-                                " x " + std::to_string(b.height));
-  ImageDifference difference;
-  for (std::size_t i = 0; i < a.pixels.size(); ++i) {
-    for (int k = 0; k < 3; ++k) {
-      const double reference = b.pixels[i][k];
-      double error = std::abs(a.pixels[i][k] - reference);
-      double relative = error * error / (reference * reference + 0.01);
-      if (!std::isfinite(error)) error = relative = std::numeric_limits<double>::infinity();
-      difference.mse += error * error;
-      difference.relmse += relative;
-      difference.max = std::max(difference.max, error);
-    }
-  }
-  const double count = 3 * static_cast<double>(a.pixels.size());
-  if (count > 0) {
-    difference.mse /= count;
-    difference.relmse /= count;
-  }
-  return difference;
 }
 
 }  // namespace pah

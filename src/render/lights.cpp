@@ -30,7 +30,7 @@ bool inside_cone(const DirectionalEmitter& sun, const Vec3& direction) {
 
 Vec3 environment_radiance(const EnvironmentEmitter& emitter, const Vec3& direction) {
   if (!emitter.distribution) return emitter.radiance;
-  const TextureImage& image = emitter.image;
+  const Image& image = emitter.image;
   const Vec2 uv = lat_long_from_direction(glm::transpose(emitter.world_from_light) * direction);
   const float x = uv.x * static_cast<float>(image.width) - 0.5F;
   const float y = std::clamp(uv.y * static_cast<float>(image.height) - 0.5F, 0.0F,

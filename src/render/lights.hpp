@@ -7,6 +7,7 @@
 
 #include <optional>
 #include <pah/geometry/ray.hpp>
+#include <pah/image/image.hpp>
 #include <pah/scene/world.hpp>
 #include <variant>
 #include <vector>
@@ -60,7 +61,7 @@ struct AreaEmitter {
 struct EnvironmentEmitter {
   Vec3 radiance{0};
   glm::mat3 world_from_light{1.0F};
-  TextureImage image;  // empty if constant
+  Image image;  // empty if constant
   std::optional<LatLongDistribution> distribution;
 };
 

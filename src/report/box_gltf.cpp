@@ -4,7 +4,7 @@
 #include <bit>
 
 #include "bvh/analyze.hpp"
-#include "report/false_colour.hpp"
+#include "report/false_color.hpp"
 #include "report/json_value.hpp"
 
 namespace pah {
@@ -82,9 +82,9 @@ JsonValue material(std::size_t level, std::size_t levels) {
   // Neither black nor white: it is to be seen on both.
   const double value = 0.25 + 0.5 * static_cast<double>(level) /
                                   static_cast<double>(std::max<std::size_t>(levels - 1, 1));
-  std::vector<JsonValue> colour = numbers(false_colour(value));
-  colour.emplace_back(1);
-  return {{"pbrMetallicRoughness", {{"baseColorFactor", colour}, {"metallicFactor", 0}}},
+  std::vector<JsonValue> color = numbers(false_color(value));
+  color.emplace_back(1);
+  return {{"pbrMetallicRoughness", {{"baseColorFactor", color}, {"metallicFactor", 0}}},
           {"extensions", {{"KHR_materials_unlit", JsonValue::object()}}}};
 }
 

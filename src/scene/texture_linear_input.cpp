@@ -1,15 +1,12 @@
 #include "scene/texture_linear_input.hpp"
 
-#include <cmath>
 #include <memory>
 #include <string>
 #include <vector>
 
-namespace pah {
+#include "image/srgb.hpp"
 
-float linear_from_srgb(float s) {
-  return s <= 0.04045F ? s / 12.92F : std::pow((s + 0.055F) / 1.055F, 2.4F);
-}
+namespace pah {
 
 void decode_srgb(float* texels, std::size_t count, int channels, int alpha_channel) {
   for (std::size_t i = 0; i < count; ++i) {
@@ -24,7 +21,7 @@ namespace {
 constexpr const char* file_attribute = "pah:file";
 
 // Reads through the file's own reader and hands on what that says of tiles, levels and sizes.
-// 8-bit colours become half, which keeps them apart; wider ones float.
+// 8-bit colors become half, which keeps them apart; wider ones float.
 class LinearImageInput final : public OIIO::ImageInput {
  public:
   const char* format_name() const override { return "pah_linear"; }

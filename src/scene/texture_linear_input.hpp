@@ -9,10 +9,7 @@
 
 namespace pah {
 
-// Linear from sRGB (IEC 61966-2-1), extended as a straight line below 0.
-[[nodiscard]] float linear_from_srgb(float s);
-
-// Decodes the colour channels of a row of texels in place; alpha is linear in the file.
+// Decodes the color channels of a row of texels in place; alpha is linear in the file.
 void decode_srgb(float* texels, std::size_t count, int channels, int alpha_channel);
 
 // Makes the cache serve `file` under `name`, decoded. False if the name is taken.

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <mutex>
 #include <optional>
+#include <vector>
 
 #include "parallel/parallel_for.hpp"
 #include "scene/texture_linear_input.hpp"
@@ -265,7 +266,7 @@ Vec4 TextureStore::sample(TextureId id, Vec2 uv, TextureUse use, Vec2 footprint)
   if (!std::isfinite(st.x) || !std::isfinite(st.y)) return Vec4{0};
   const glm::dvec2 width = glm::abs(glm::dvec2{footprint} * entry.scale);
   if (entry.checker) return sample_checker(entry, st, width);
-  // A file of no declared encoding holds colours or data: it depends on what it is used for.
+  // A file of no declared encoding holds colors or data: it depends on what it is used for.
   const bool declared =
       std::get_if<ImageTexture>(&impl_->textures[id])->color_space != ColorSpace::automatic;
   return impl_->sample_image(entry.image, declared || use == TextureUse::color, st, width);
@@ -282,7 +283,7 @@ float TextureStore::scalar(const ScalarInput& input, Vec2 uv, float footprint) c
                               Vec2{footprint})[std::clamp(input.channel, 0, 3)];
 }
 
-TextureImage TextureStore::image(TextureId id) const {
+Image TextureStore::image(TextureId id) const {
   const auto* texture = std::get_if<ImageTexture>(&impl_->textures[id]);
   if (!texture) throw TextureError(id, "a checkerboard is no image");
   OpenImage opened = open_image(id, *texture, impl_->options);
@@ -296,7 +297,7 @@ TextureImage TextureStore::image(TextureId id) const {
   if (impl_->entries[id].image.srgb) {
     decode_srgb(texels.data(), width * height, opened.spec.nchannels, opened.spec.alpha_channel);
   }
-  TextureImage image{opened.spec.width, opened.spec.height, {}};
+  Image image{opened.spec.width, opened.spec.height, {}};
   image.pixels.resize(width * height);
   for (std::size_t i = 0; i < image.pixels.size(); ++i) {
     image.pixels[i] = Vec3{as_rgba(&texels[i * channels], std::min(opened.spec.nchannels, 4))};

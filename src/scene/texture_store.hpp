@@ -3,11 +3,11 @@
 
 #include <cstdint>
 #include <memory>
+#include <pah/image/image.hpp>
 #include <pah/scene/texture.hpp>
 #include <span>
 #include <stdexcept>
 #include <string>
-#include <vector>
 
 namespace pah {
 
@@ -26,18 +26,11 @@ struct TextureOptions {
   int cache_megabytes = 1024;                  // tiles held in memory
 };
 
-// A linear Rec. 709 picture, rows from the top.
-struct TextureImage {
-  int width = 0;
-  int height = 0;
-  std::vector<Vec3> pixels;
-};
-
 // What a look-up is for. Images whose encoding is not declared hold plain numbers if they are used
 // as data: roughness, opacity, normals.
 enum class TextureUse { color, data };
 
-// Look-ups are thread-safe and do not throw. Colours are linear Rec. 709.
+// Look-ups are thread-safe and do not throw. Colors are linear Rec. 709.
 class TextureStore {
  public:
   // Opens every image and checks its size before anything is decoded. Throws TextureError.
@@ -48,7 +41,7 @@ class TextureStore {
 
   // The texture about (u, v), v = 0 being the image's bottom row, averaged over a footprint given
   // in texture coordinates (0: the finest level, interpolated). Images without alpha have alpha 1;
-  // one-channel images are grey. Where the file fails to decode, or the coordinates are not finite:
+  // one-channel images are gray. Where the file fails to decode, or the coordinates are not finite:
   // black.
   [[nodiscard]] Vec4 sample(TextureId id, Vec2 uv, TextureUse use = TextureUse::color,
                             Vec2 footprint = Vec2{0}) const noexcept;
@@ -59,7 +52,7 @@ class TextureStore {
 
   // The whole image, without scale and offset. Throws TextureError if it cannot be decoded or is no
   // image.
-  [[nodiscard]] TextureImage image(TextureId id) const;
+  [[nodiscard]] Image image(TextureId id) const;
 
  private:
   struct Impl;

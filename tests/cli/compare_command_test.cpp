@@ -1,5 +1,6 @@
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <pah/geometry/vec.hpp>
 #include <pah/io/image_file.hpp>
 
 #include "catch.hpp"

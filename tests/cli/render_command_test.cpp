@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <pah/geometry/vec.hpp>
 #include <pah/io/image_file.hpp>
 
 #include "catch.hpp"

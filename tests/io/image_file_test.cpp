@@ -9,8 +9,11 @@
 #include <fstream>
 #include <functional>
 #include <iterator>
+#include <pah/geometry/vec.hpp>
+#include <pah/image/compare.hpp>
 #include <pah/io/image_file.hpp>
 
+#include "image/srgb.hpp"
 #include "support/temporary_folder.hpp"
 
 using namespace pah;
@@ -43,10 +46,6 @@ bool has(const std::string& text, const std::string& part) {
 }
 
 double largest_difference(const Image& a, const Image& b) { return compare_images(a, b).max; }
-
-float srgb(float x) {
-  return x <= 0.0031308F ? 12.92F * x : 1.055F * std::pow(x, 1 / 2.4F) - 0.055F;
-}
 
 }  // namespace
 
@@ -88,7 +87,7 @@ TEST_CASE("low dynamic range is exposed, clamped and rounded to sRGB") {
   REQUIRE(in->spec().nchannels == 3);
   std::vector<unsigned char> bytes(15);
   REQUIRE(in->read_image(0, 0, 0, 3, OIIO::TypeUInt8, bytes.data()));
-  CHECK(bytes[0] == std::lround(255 * srgb(0.5F)));
+  CHECK(bytes[0] == std::lround(255 * srgb_from_linear(0.5F)));
   CHECK(bytes[3] == 255);
   CHECK(bytes[6] == 0);
   CHECK(bytes[9] == 0);

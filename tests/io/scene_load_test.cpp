@@ -3,8 +3,8 @@
 #include <pah/scene/metal_presets.hpp>
 
 #include "catch.hpp"
-#include "io/scene_files.hpp"
-#include "io/yaml_suggest.hpp"
+#include "io/scene/files.hpp"
+#include "io/yaml/suggest.hpp"
 #include "scene_testing.hpp"
 
 using namespace pah;

@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "catch.hpp"
-#include "io/scene_language.hpp"
+#include "io/scene/language.hpp"
 #include "json_schema.hpp"
 #include "scene_testing.hpp"
 #include "support/paths.hpp"

@@ -11,10 +11,28 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// geometry, parallel | influence, bvh | accel, scene | render | io | report | cli
+// geometry, image, parallel | influence, bvh | accel, scene | render | io | report | cli
 const std::map<std::string, int, std::less<>> ranks{
-    {"geometry", 0}, {"parallel", 0}, {"influence", 1}, {"bvh", 1},    {"accel", 2},
-    {"scene", 2},    {"render", 3},   {"io", 4},        {"report", 5}, {"cli", 6}};
+    {"geometry", 0}, {"image", 0},  {"parallel", 0}, {"influence", 1}, {"bvh", 1}, {"accel", 2},
+    {"scene", 2},    {"render", 3}, {"io", 4},       {"report", 5},    {"cli", 6}};
+
+// A folder below a module's own.
+struct Floor {
+  std::string_view name;
+  std::vector<std::string_view> below;   // the floors that it stands on
+  std::vector<std::string_view> unseen;  // include prefixes to its left that it must not know
+};
+// A floor includes itself, what is below it, its module's own folder and what stands to the
+// module's left. The module's own folder includes no floor.
+const std::vector<Floor> floors{
+    {"io/yaml", {}, {"pah/scene/", "scene/", "pah/render/", "render/"}},
+    {"io/mesh", {}, {"scene/", "pah/render/", "render/"}},  // scene's public values only
+    {"io/scene", {"io/yaml", "io/mesh"}, {}},
+    {"report/study", {}, {}},
+};
+// Public headers stay in their module's folder, and belong to the floor that they open.
+const std::map<std::string, std::string, std::less<>> floors_of_headers{
+    {"io/mesh_file.hpp", "io/mesh"}, {"io/load_scene.hpp", "io/scene"}};
 
 // Include prefixes of third parties, and the path prefixes of the files that may use them.
 struct ThirdParty {
@@ -25,10 +43,10 @@ const std::vector<ThirdParty> third_parties{
     {"glm/", {"include/", "src/"}},
     {"tbb/", {"src/parallel/", "src/render/render.cpp", "src/cli/render_command.cpp"}},
     {"OpenImageIO/", {"src/io/image_", "src/scene/texture"}},
-    {"yaml-cpp/", {"src/io/"}},
-    {"assimp/", {"src/io/"}},
+    {"yaml-cpp/", {"src/io/yaml/"}},
+    {"assimp/", {"src/io/mesh/"}},
     {"fmt/", {"src/io/", "src/report/", "src/cli/"}},
-    {"nlohmann/", {"src/io/gltf_file", "src/report/json_value"}},
+    {"nlohmann/", {"src/io/mesh/gltf", "src/report/json_value"}},
     {"CLI/", {"src/cli/"}},
     {"embree3/", {"src/accel/"}},
     {"embree4/", {"src/accel/"}},
@@ -63,8 +81,47 @@ bool starts_with_any(std::string_view text, const std::vector<std::string_view>&
   return std::ranges::any_of(prefixes, [&](auto prefix) { return text.starts_with(prefix); });
 }
 
-// What is wrong with `include` in `file` of `module`; empty if nothing.
-std::string fault(const std::string& file, const std::string& module, const Include& include) {
+// Where a file stands.
+struct Place {
+  std::string module;
+  std::string floor;  // "io/yaml"; empty in the module's own folder
+
+  [[nodiscard]] const std::string& name() const { return floor.empty() ? module : floor; }
+};
+
+// Of "io/yaml/tree.hpp", say.
+Place place_of(const std::string& path) {
+  const std::string module = path.substr(0, path.find('/'));
+  const auto header = floors_of_headers.find(path);
+  if (header != floors_of_headers.end()) return {module, header->second};
+  const std::string folder = fs::path(path).parent_path().generic_string();
+  return {module, folder == module ? "" : folder};
+}
+
+// Null for a module's own folder, and for what is no floor.
+const Floor* find_floor(std::string_view name) {
+  const auto floor = std::ranges::find(floors, name, &Floor::name);
+  return floor == floors.end() ? nullptr : &*floor;
+}
+
+// What is wrong with `include`, of something at `to`, in a file at `from`; empty if nothing.
+std::string fault_between(const Place& from, const Place& to, const Include& include) {
+  const auto rank = ranks.find(to.module);
+  if (rank == ranks.end()) return "no module " + to.module;
+  const Floor* floor = find_floor(from.floor);
+  bool allowed = false;
+  if (to.module != from.module)
+    allowed = rank->second < ranks.at(from.module) &&
+              !(floor != nullptr && starts_with_any(include.target, floor->unseen));
+  else
+    allowed = to.floor.empty() || to.floor == from.floor ||
+              (floor != nullptr && std::ranges::count(floor->below, to.floor) > 0);
+  if (allowed) return "";
+  return from.name() + " must not include " + to.name();
+}
+
+// What is wrong with `include` in `file`, which stands at `from`; empty if nothing.
+std::string fault(const std::string& file, const Place& from, const Include& include) {
   std::string_view target = include.target;
   const bool is_public = file.starts_with("include/");
   if (is_public && include.quoted) return "a public header must not include private ones";
@@ -75,10 +132,7 @@ std::string fault(const std::string& file, const std::string& module, const Incl
 
   if (pah_header || include.quoted) {
     if (slash == std::string_view::npos) return pah_header ? "not in a module" : "";
-    const auto rank = ranks.find(first);
-    if (rank == ranks.end()) return "no module " + std::string(first);
-    if (first == module || rank->second < ranks.at(module)) return "";
-    return module + " must not include " + std::string(first);
+    return fault_between(from, place_of(std::string(target)), include);
   }
   for (const ThirdParty& party : third_parties)
     if (target.starts_with(party.includes))
@@ -93,11 +147,17 @@ std::string fault(const std::string& file, const std::string& module, const Incl
   return "unknown third party " + include.target;
 }
 
-void check_file(const fs::path& root, const fs::path& path, const std::string& module,
+// `top` is the folder of all modules that the file is in.
+void check_file(const fs::path& root, const fs::path& top, const fs::path& path,
                 std::vector<std::string>& faults) {
   const std::string file = path.lexically_relative(root).generic_string();
-  if (!ranks.contains(module)) {
-    faults.push_back(file + ": no module " + module);
+  const Place place = place_of(path.lexically_relative(top).generic_string());
+  if (!ranks.contains(place.module)) {
+    faults.push_back(file + ": no module " + place.module);
+    return;
+  }
+  if (!place.floor.empty() && find_floor(place.floor) == nullptr) {
+    faults.push_back(file + ": no floor " + place.floor);
     return;
   }
   std::ifstream stream(path);
@@ -105,7 +165,7 @@ void check_file(const fs::path& root, const fs::path& path, const std::string& m
   for (int number = 1; std::getline(stream, line); ++number) {
     const auto include = parse_include(line);
     if (!include) continue;
-    if (const std::string what = fault(file, module, *include); !what.empty())
+    if (const std::string what = fault(file, place, *include); !what.empty())
       faults.push_back(file + ":" + std::to_string(number) + ": " + what);
   }
 }
@@ -119,8 +179,7 @@ std::vector<std::string> broken_include_rules(const fs::path& root) {
     for (const auto& entry : fs::recursive_directory_iterator(top)) {
       const std::string extension = entry.path().extension();
       if (extension != ".cpp" && extension != ".hpp") continue;
-      const auto module = entry.path().lexically_relative(top).begin()->string();
-      check_file(root, entry.path(), module, faults);
+      check_file(root, top, entry.path(), faults);
     }
   }
   std::ranges::sort(faults);

@@ -1,4 +1,5 @@
-// Who may include whom: the order of modules, and where third parties may be seen.
+// Who may include whom: the order of modules and of the floors within them, and where third parties
+// may be seen.
 #pragma once
 
 #include <filesystem>

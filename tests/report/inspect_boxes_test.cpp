@@ -7,7 +7,7 @@
 
 #include "catch.hpp"
 #include "hand_made_tree.hpp"
-#include "io/gltf_file.hpp"
+#include "io/mesh/gltf.hpp"
 #include "report/box_gltf.hpp"
 #include "support/temporary_folder.hpp"
 

@@ -1,25 +1,24 @@
-// What rays cost, and its colours.
+// What rays cost, and its colors.
 #include <numeric>
 #include <pah/accel/accelerator.hpp>
 
 #include "bvh/build.hpp"
 #include "catch.hpp"
+#include "image/srgb.hpp"
 #include "render/camera_rays.hpp"
-#include "report/false_colour.hpp"
+#include "report/false_color.hpp"
 #include "support/soups.hpp"
 
 using namespace pah;
 
 namespace {
 
-double srgb_from_linear(double v) {
-  return v <= 0.0031308 ? 12.92 * v : 1.055 * std::pow(v, 1 / 2.4) - 0.055;
-}
-
 // As defined for encoded values: what Green's scheme is even in.
-double brightness(const Vec3& colour) {
-  return 0.3 * srgb_from_linear(colour.x) + 0.59 * srgb_from_linear(colour.y) +
-         0.11 * srgb_from_linear(colour.z);
+double brightness(const Vec3& color) {
+  const auto encoded = [&](int channel) {
+    return srgb_from_linear(static_cast<double>(color[channel]));
+  };
+  return 0.3 * encoded(0) + 0.59 * encoded(1) + 0.11 * encoded(2);
 }
 
 }  // namespace
@@ -67,7 +66,7 @@ TEST_CASE("Every pixel's ray is counted as the accelerator counts it alone") {
   CHECK(sum.triangles_per_ray == Approx(static_cast<double>(tests) / (24 * 16)));
 }
 
-TEST_CASE("Rays through the centres of pixels") {
+TEST_CASE("Rays through the centers of pixels") {
   PerspectiveCamera camera;
   camera.position = {0, 0, 5};
   camera.look_at = {0, 0, 0};
@@ -80,11 +79,11 @@ TEST_CASE("Rays through the centres of pixels") {
   CHECK(ray.origin == Vec3{0, 0, 5});
 }
 
-TEST_CASE("False colours grow evenly in brightness, from black to white") {
-  CHECK(false_colour(0) == Vec3{0});
-  CHECK(glm::length(false_colour(1) - Vec3{1}) < 1e-6F);
+TEST_CASE("False colors grow evenly in brightness, from black to white") {
+  CHECK(false_color(0) == Vec3{0});
+  CHECK(glm::length(false_color(1) - Vec3{1}) < 1e-6F);
   for (int i = 0; i <= 100; ++i)
-    CHECK(brightness(false_colour(i / 100.0)) == Approx(i / 100.0).margin(2e-3));
+    CHECK(brightness(false_color(i / 100.0)) == Approx(i / 100.0).margin(2e-3));
 }
 
 TEST_CASE("A heat map has nodes on the left and triangles on the right") {
@@ -92,14 +91,14 @@ TEST_CASE("A heat map has nodes on the left and triangles on the right") {
   const Image image = heat_map(costs);
   REQUIRE(image.width == 4);
   REQUIRE(image.height == 2);
-  CHECK(image.at(0, 0) == false_colour(1));
-  CHECK(image.at(1, 0) == false_colour(0));
-  CHECK(image.at(0, 1) == false_colour(0.5));
-  CHECK(image.at(1, 1) == false_colour(0.25));
-  CHECK(image.at(2, 0) == false_colour(0));
-  CHECK(image.at(3, 0) == false_colour(0.5));
-  CHECK(image.at(2, 1) == false_colour(1));
-  CHECK(image.at(3, 1) == false_colour(0));
+  CHECK(image.at(0, 0) == false_color(1));
+  CHECK(image.at(1, 0) == false_color(0));
+  CHECK(image.at(0, 1) == false_color(0.5));
+  CHECK(image.at(1, 1) == false_color(0.25));
+  CHECK(image.at(2, 0) == false_color(0));
+  CHECK(image.at(3, 0) == false_color(0.5));
+  CHECK(image.at(2, 1) == false_color(1));
+  CHECK(image.at(3, 1) == false_color(0));
   for (RayCost& ray : costs.rays) ray = {};
   for (const Vec3& pixel : heat_map(costs).pixels) CHECK(pixel == Vec3{0});
 }

@@ -4,8 +4,8 @@
 #include <pah/influence/box_sectors.hpp>
 
 #include "catch.hpp"
-#include "report/study_areas.hpp"
-#include "report/study_local.hpp"
+#include "report/study/areas.hpp"
+#include "report/study/local.hpp"
 #include "support/soups.hpp"
 
 using namespace pah;

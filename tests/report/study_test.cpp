@@ -1,4 +1,4 @@
-#include "report/study.hpp"
+#include "report/study/study.hpp"
 
 #include <tbb/global_control.h>
 
@@ -6,7 +6,7 @@
 #include <sstream>
 
 #include "catch.hpp"
-#include "report/study_means.hpp"
+#include "report/study/means.hpp"
 #include "support/soups.hpp"
 
 using namespace pah;

@@ -2,9 +2,10 @@
 // (RGBE) and EXR (linear floats).
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <pah/image/image.hpp>
 #include <pah/io/errors.hpp>
-#include <pah/render/film.hpp>
 #include <string>
 #include <utility>
 #include <vector>
@@ -22,7 +23,7 @@ struct ImageLayer {
 
 struct WriteOptions {
   double exposure = 0;      // stops; PNG, JPEG and TIFF only
-  bool full_float = false;  // EXR: 32-bit colours; depth and variance always are
+  bool full_float = false;  // EXR: 32-bit colors; depth and variance always are
   ImageMetadata metadata;
 };
 
@@ -38,7 +39,7 @@ void check_writable(const std::filesystem::path& file);
 void write_image(const std::filesystem::path& file, const std::vector<ImageLayer>& layers,
                  const WriteOptions& options = {});
 
-// R, G and B (or the first three channels, or the first, thrice), linear: 8- and 16-bit colours are
+// R, G and B (or the first three channels, or the first, thrice), linear: 8- and 16-bit colors are
 // taken for sRGB. Throws FileError, also if the picture is larger than `max_bytes` as floats.
 [[nodiscard]] Image read_image(const std::filesystem::path& file,
                                std::uint64_t max_bytes = 4ULL << 30);

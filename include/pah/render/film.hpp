@@ -3,22 +3,11 @@
 
 #include <cstdint>
 #include <pah/geometry/vec.hpp>
+#include <pah/image/image.hpp>
 #include <pah/scene/settings.hpp>
 #include <vector>
 
 namespace pah {
-
-// A linear picture, rows from the top.
-struct Image {
-  int width = 0;
-  int height = 0;
-  std::vector<Vec3> pixels;
-
-  [[nodiscard]] const Vec3& at(int x, int y) const {
-    return pixels[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
-                  static_cast<std::size_t>(x)];
-  }
-};
 
 // Each sample belongs to one pixel only (the filter is importance-sampled), so a pixel's mean is
 // its sum over its count, and tiles never share pixels.
@@ -66,15 +55,5 @@ struct ErrorEstimate {
   double low = 0, high = 0;  // 95 % confidence interval of relmse
 };
 [[nodiscard]] ErrorEstimate estimate_error(const Film& film);
-
-// Differences between two pictures of one size; `b` is the reference. Where either is not finite,
-// the difference is infinite.
-struct ImageDifference {
-  double mse = 0;
-  double relmse = 0;
-  double max = 0;  // largest absolute difference of a channel
-};
-// Throws std::invalid_argument if the sizes differ.
-[[nodiscard]] ImageDifference compare_images(const Image& a, const Image& b);
 
 }  // namespace pah

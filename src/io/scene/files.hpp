@@ -1,0 +1,50 @@
+// The files that a scene names: where they are, that they can be read, and what they hash to.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+
+#include "io/yaml/reader.hpp"
+
+namespace pah {
+
+// FNV-1a, 128 bits (Fowler, Noll, Vo; RFC 9923): tells scenes apart, not proof against malice.
+class ContentHash {
+ public:
+  void add(std::string_view bytes);
+  // With its length, so that neighbours do not run together.
+  void add_part(std::string_view bytes);
+  [[nodiscard]] std::string hex() const;
+
+ private:
+  std::uint64_t high_ = 0x6C62272E07BB0142U;
+  std::uint64_t low_ = 0x62B821756295C58DU;
+};
+
+class SceneFiles {
+ public:
+  explicit SceneFiles(std::filesystem::path folder) : folder_(std::move(folder)) {}
+
+  // The whole path of the regular file that `node` names, its bytes added to the hash when it is
+  // first seen; nothing, and an error, if it cannot be read or is larger than `most_bytes`.
+  std::optional<std::filesystem::path> open(ReadContext& context, const YamlNode& node,
+                                            const ValueName& name, std::uint64_t most_bytes);
+  // As open(), of a file that another one names; `node` is where that one is named.
+  std::optional<std::filesystem::path> open(ReadContext& context, const Mark& mark,
+                                            const std::filesystem::path& file,
+                                            std::uint64_t most_bytes);
+
+  ContentHash& hash() { return hash_; }
+  [[nodiscard]] const std::filesystem::path& folder() const { return folder_; }
+
+ private:
+  std::filesystem::path folder_;
+  ContentHash hash_;
+  std::unordered_map<std::string, bool> seen_;  // by whole path: readable
+};
+
+}  // namespace pah

@@ -1,0 +1,193 @@
+#include "io/scene/imports.hpp"
+
+#include <algorithm>
+#include <type_traits>
+
+#include "io/mesh/access.hpp"
+
+namespace pah {
+namespace {
+
+// Calls visit(ColorInput&) and visit(ScalarInput&) for every input of a material.
+template <class Visit>
+void for_each_input(Material& material, Visit&& visit) {
+  visit(material.opacity);
+  std::visit(
+      [&](auto& model) {
+        using Model = std::decay_t<decltype(model)>;
+        if constexpr (requires { model.reflectance; }) visit(model.reflectance);
+        if constexpr (requires { model.roughness; }) visit(model.roughness);
+        if constexpr (std::is_same_v<Model, GlassMaterial>) visit(model.transmittance);
+        if constexpr (std::is_same_v<Model, MetalMaterial>) visit(model.tint);
+        if constexpr (std::is_same_v<Model, PrincipledMaterial>) {
+          visit(model.base_color);
+          visit(model.metallic);
+        }
+      },
+      material.model);
+}
+
+template <class T>
+std::string_view bytes_of(const std::vector<T>& values) {
+  static_assert(std::is_trivially_copyable_v<T>);
+  return {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T)};
+}
+
+// What a mesh file gets from the files that it names in turn.
+void hash_content(ContentHash& hash, MeshFile& file) {
+  for (const Mesh& mesh : file.meshes) {
+    hash.add_part(bytes_of(mesh.positions));
+    hash.add_part(bytes_of(mesh.normals));
+    hash.add_part(bytes_of(mesh.uvs));
+    hash.add_part(bytes_of(mesh.triangles));
+  }
+  for (Material& material : file.materials)
+    for_each_input(material, [&](const auto& input) {
+      hash.add({reinterpret_cast<const char*>(&input.value), sizeof input.value});
+    });
+}
+
+// Reads the file into the scene; the ids in it become the scene's.
+ImportedFile add_file(SceneReading& reading, MeshFile file, const Mark& mark) {
+  hash_content(reading.files.hash(), file);
+  Scene& scene = reading.scene;
+  const auto first_mesh = static_cast<MeshId>(scene.meshes.size());
+  const auto first_material = static_cast<MaterialId>(scene.materials.size());
+  const auto first_texture = static_cast<TextureId>(scene.textures.size());
+  for (Texture& texture : file.textures) {
+    if (const auto* image = std::get_if<ImageTexture>(&texture);
+        image != nullptr &&
+        reading.files.open(reading.context, mark, image->file, reading.limits.image_bytes))
+      check_image(reading, mark, image->file);
+    scene.textures.push_back(std::move(texture));
+  }
+  const auto shift = [&](TextureId& id) {
+    if (id != no_texture) id += first_texture;
+  };
+  for (Material& material : file.materials) {
+    shift(material.normal_map);
+    for_each_input(material, [&](auto& input) { shift(input.texture); });
+    scene.materials.push_back(std::move(material));
+  }
+  for (Mesh& mesh : file.meshes) scene.meshes.push_back(std::move(mesh));
+
+  ImportedFile imported;
+  for (MeshFilePart part : file.parts) {
+    imported.emission.push_back(part.material < file.emission.size() ? file.emission[part.material]
+                                                                     : Vec3(0));
+    part.mesh += first_mesh;
+    part.material += first_material;
+    imported.parts.push_back(part);
+  }
+  imported.cameras = std::move(file.cameras);
+  imported.lights = std::move(file.lights);
+  return imported;
+}
+
+std::string located_message(const std::string& file, const MeshFileError& error) {
+  std::string text = "mesh file '" + file + "'";
+  if (error.line() > 0) text += ", line " + std::to_string(error.line());
+  if (error.line() > 0 && error.column() > 0) text += ", column " + std::to_string(error.column());
+  return text + ": " + error.what();
+}
+
+DVec3 move_point(const glm::dmat4x3& m, const DVec3& point) { return m * glm::dvec4(point, 1); }
+DVec3 move_direction(const glm::dmat4x3& m, const DVec3& direction) {
+  return m * glm::dvec4(direction, 0);
+}
+
+Light moved(Light light, const glm::dmat4x3& m) {
+  std::visit(
+      [&](auto& model) {
+        if constexpr (requires { model.position; }) model.position = move_point(m, model.position);
+        if constexpr (requires { model.direction; })
+          model.direction = move_direction(m, model.direction);
+      },
+      light.model);
+  return light;
+}
+
+Camera moved(Camera camera, const glm::dmat4x3& m) {
+  std::visit(
+      [&](auto& model) {
+        model.position = move_point(m, model.position);
+        model.look_at = move_point(m, model.look_at);
+        model.up = move_direction(m, model.up);
+      },
+      camera);
+  return camera;
+}
+
+}  // namespace
+
+const ImportedFile* import_file(SceneReading& reading, const YamlNode& node, const ValueName& name,
+                                MeshNormals normals, const FileUse& use) {
+  const auto path = reading.files.open(reading.context, node, name, reading.limits.mesh_file_bytes);
+  if (!path) return nullptr;
+  const bool whole = use.materials || use.cameras || use.lights;
+  const std::string key =
+      std::to_string(static_cast<int>(normals)) + (whole ? "w" : "m") + path->string();
+  const auto found = reading.imported.find(key);
+  if (found != reading.imported.end()) return &found->second;
+
+  MeshFileOptions options;
+  options.normals = normals;
+  options.file_bytes = reading.limits.mesh_file_bytes;
+  options.triangles =
+      reading.limits.triangles - std::min(reading.triangles, reading.limits.triangles);
+  // A mesh of the scene's own may share what lies anywhere in the scene.
+  if (lies_in(*path, reading.files.folder())) options.folder = reading.files.folder();
+  try {
+    MeshFile file;
+    if (whole) {
+      file = read_mesh_file(*path, options);
+    } else {
+      file.meshes.push_back(read_mesh(*path, options));
+      file.parts.emplace_back();
+    }
+    return &reading.imported.emplace(key, add_file(reading, std::move(file), node.mark))
+                .first->second;
+  } catch (const MeshFileError& error) {
+    reading.context.errors.add(node.mark, located_message(node.text, error));
+    return nullptr;
+  }
+}
+
+std::vector<LightId> use_file(SceneReading& reading, const ImportedFile& file, const FileUse& use,
+                              const std::string& mesh_name, const std::vector<glm::dmat4x3>& copies,
+                              const Mark& mark) {
+  Scene& scene = reading.scene;
+  const auto add_light = [&](Light light, const std::string& name) {
+    const auto id = static_cast<LightId>(scene.lights.size());
+    light.name = mesh_name + "." + name;
+    reading.lights.add_unless_known(light.name, id);
+    scene.lights.push_back(std::move(light));
+    return id;
+  };
+  if (use.cameras) {
+    if (reading.has_camera)
+      reading.context.errors.add(mark, "the scene has a camera already");
+    else if (file.cameras.empty())
+      reading.context.errors.add(mark, "the mesh file has no camera");
+    else
+      scene.camera = moved(file.cameras.front().camera, copies.front());
+    reading.has_camera = true;
+  }
+  std::vector<LightId> lights(file.parts.size(), no_light);
+  if (!use.lights) return lights;
+  for (const auto& copy : copies)
+    for (const Light& light : file.lights) add_light(moved(light, copy), light.name);
+  std::unordered_map<MaterialId, LightId> emitters;
+  for (std::size_t i = 0; i < file.parts.size(); ++i) {
+    if (file.emission[i] == Vec3(0)) continue;
+    const MaterialId material = file.parts[i].material;
+    const auto [entry, is_new] = emitters.emplace(material, no_light);
+    if (is_new)
+      entry->second =
+          add_light({"", AreaLight{file.emission[i], false}}, scene.materials[material].name);
+    lights[i] = entry->second;
+  }
+  return lights;
+}
+
+}  // namespace pah

@@ -1,0 +1,65 @@
+// The study's rows as they are, for other tools.
+#include <fmt/format.h>
+
+#include "report/study/study.hpp"
+
+namespace pah {
+namespace {
+
+// RFC 4180.
+std::string quoted(const std::string& text) {
+  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+  std::string out = "\"";
+  for (const char c : text) {
+    if (c == '"') out += '"';
+    out += c;
+  }
+  return out + '"';
+}
+
+constexpr const char* case_columns = "mesh,area,group,triangles,heuristic,split";
+
+std::string cells(const StudyCase& tree) {
+  return fmt::format("{},{},{},{},{},{}", quoted(tree.mesh), quoted(tree.area),
+                     quoted(name_of(tree.group)), tree.triangles, name_of(tree.heuristic),
+                     name_of(tree.split));
+}
+
+}  // namespace
+
+std::string prediction_csv(const StudyResults& results) {
+  std::string csv = fmt::format(
+      "{},measured,standard_error,closest_hit,pah,pah_plane_measure,pah_unclipped,sah\n",
+      case_columns);
+  for (const PredictionRow& row : results.predictions)
+    csv += fmt::format("{},{:.6g},{:.3g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g}\n", cells(row.tree),
+                       row.measured, row.standard_error, row.closest, row.pah, row.pah_plane,
+                       row.pah_unclipped, row.sah);
+  return csv;
+}
+
+std::string cost_csv(const StudyResults& results) {
+  std::string csv =
+      fmt::format("{},closest_hit,all_nodes,kernel,hit_share,break_even_share\n", case_columns);
+  for (const CostRow& row : results.costs)
+    csv += fmt::format("{},{:.6g},{:.6g},{:.6g},{:.5g},{:.5g}\n", cells(row.tree), row.closest,
+                       row.all, row.kernel, row.hit_share, row.break_even);
+  return csv;
+}
+
+std::string build_csv(const StudyResults& results) {
+  std::string csv = fmt::format("{},build_cpu_seconds\n", case_columns);
+  for (const CostRow& row : results.costs)
+    csv += fmt::format("{},{:.6f}\n", cells(row.tree), row.build_seconds);
+  return csv;
+}
+
+std::string sweep_csv(const StudyResults& results) {
+  std::string csv = fmt::format("{},parameter,value,cost,over_default\n", case_columns);
+  for (const SweepRow& row : results.sweeps)
+    csv += fmt::format("{},{},{:g},{:.6g},{:.5g}\n", cells(row.tree), row.parameter, row.value,
+                       row.cost, row.over_default);
+  return csv;
+}
+
+}  // namespace pah

@@ -1,0 +1,67 @@
+// Means over the study's rows.
+#pragma once
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "report/study/study.hpp"
+
+namespace pah {
+
+// Of `value(row)` over the rows that `take(row)` admits; NaN if there are none.
+template <typename Row, typename Take, typename Value>
+[[nodiscard]] double mean_of(const std::vector<Row>& rows, const Take& take, const Value& value) {
+  double sum = 0;
+  std::size_t count = 0;
+  for (const Row& row : rows) {
+    if (!take(row)) continue;
+    sum += value(row);
+    ++count;
+  }
+  return count > 0 ? sum / static_cast<double>(count) : std::nan("");
+}
+
+// |predicted - measured| / measured.
+[[nodiscard]] inline double relative_error(double predicted, const PredictionRow& row) {
+  return std::abs(predicted - row.measured) / row.measured;
+}
+
+// A tree of the comparison.
+struct StudyVariant {
+  Heuristic heuristic;
+  SplitAxis split;
+
+  [[nodiscard]] bool built(const CostRow& row) const {
+    return row.tree.heuristic == heuristic && row.tree.split == split;
+  }
+  [[nodiscard]] std::string name() const {
+    return std::string(name_of(heuristic)) + " + " + name_of(split);
+  }
+};
+
+inline constexpr StudyVariant sah_longest{Heuristic::surface_area, SplitAxis::longest};
+inline constexpr StudyVariant sah_best{Heuristic::surface_area, SplitAxis::best};
+inline constexpr StudyVariant sah_facing{Heuristic::surface_area, SplitAxis::facing};
+inline constexpr StudyVariant pah_longest{Heuristic::projected_area, SplitAxis::longest};
+inline constexpr StudyVariant pah_best{Heuristic::projected_area, SplitAxis::best};
+inline constexpr StudyVariant pah_facing{Heuristic::projected_area, SplitAxis::facing};
+inline constexpr StudyVariant study_variants[] = {sah_longest, sah_best, sah_facing,
+                                                  pah_longest, pah_best, pah_facing};
+
+// The thesis's claims and what becomes of them, as a section of the report.
+[[nodiscard]] std::string study_findings(const StudyResults& results);
+
+// The rows with `value` divided by that of `base` in the same area.
+[[nodiscard]] std::vector<CostRow> relative_costs(const std::vector<CostRow>& rows,
+                                                  const StudyVariant& base, double CostRow::*value);
+
+// The meshes' names, in the order of the rows.
+[[nodiscard]] inline std::vector<std::string> meshes_of(const StudyResults& results) {
+  std::vector<std::string> names;
+  for (const CostRow& row : results.costs)
+    if (names.empty() || names.back() != row.tree.mesh) names.push_back(row.tree.mesh);
+  return names;
+}
+
+}  // namespace pah
