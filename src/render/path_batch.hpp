@@ -3,7 +3,7 @@
 #pragma once
 
 #include <pah/geometry/ray.hpp>
-#include <pah/render/render.hpp>
+#include <pah/render/counts.hpp>
 #include <vector>
 
 #include "render/light_sampler.hpp"

@@ -1,7 +1,10 @@
 // The integrator: unidirectional path tracing with next-event estimation, one batch at a time.
 #pragma once
 
-#include <pah/render/render.hpp>
+#include <pah/accel/accelerator.hpp>
+#include <pah/render/counts.hpp>
+#include <pah/render/film.hpp>
+#include <pah/scene/world.hpp>
 
 #include "render/camera_rays.hpp"
 #include "render/lights.hpp"

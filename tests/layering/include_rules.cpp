@@ -41,7 +41,7 @@ struct ThirdParty {
 };
 const std::vector<ThirdParty> third_parties{
     {"glm/", {"include/", "src/"}},
-    {"tbb/", {"src/parallel/", "src/render/render.cpp", "src/cli/render_command.cpp"}},
+    {"tbb/", {"src/parallel/", "src/render/session.cpp", "src/cli/render_command.cpp"}},
     {"OpenImageIO/", {"src/io/image_", "src/scene/texture"}},
     {"yaml-cpp/", {"src/io/yaml/"}},
     {"assimp/", {"src/io/mesh/"}},

@@ -1,23 +1,15 @@
 // World and accelerator in, film out.
 #pragma once
 
-#include <array>
 #include <atomic>
+#include <cstdint>
 #include <functional>
 #include <pah/accel/accelerator.hpp>
+#include <pah/render/counts.hpp>
 #include <pah/render/film.hpp>
 #include <pah/scene/world.hpp>
 
 namespace pah {
-
-enum class RayKind { camera, shadow, bounce };
-inline constexpr std::array<const char*, 3> ray_kind_names{"camera", "shadow", "bounce"};
-
-struct RenderCounts {
-  std::array<std::uint64_t, 3> rays{};         // by RayKind
-  std::array<TraversalCounts, 3> traversal{};  // zero unless asked for
-  std::uint64_t nan_samples = 0;               // samples dropped: not finite, or negative
-};
 
 struct Progress {
   double fraction = 0;  // of all samples, in [0, 1]
