@@ -12,6 +12,7 @@
 #include <numeric>
 #include <pah/accel/local_bvhs.hpp>
 #include <utility>
+#include <variant>
 
 #include "accel/batch.hpp"
 #include "accel/build_local.hpp"
@@ -20,12 +21,15 @@ namespace pah {
 
 namespace {
 
+// What may answer an area's rays.
+using LocalStructure = std::variant<Bvh>;
+
 struct Area {
   LocalArea declared;
   Region region;
   float end_margin = 0;
   bool holds_scene = false;  // every triangle is in the local BVH
-  Bvh bvh;
+  LocalStructure structure;
 
   // Up to which t the local BVH's answer is certain; nothing if the ray does not start inside.
   [[nodiscard]] std::optional<float> reach(const Ray& ray, const PreparedRay& prepared,
@@ -80,10 +84,10 @@ class LocalBvhsOverGlobal final : public LocalBvhs {
     for_batches(rays, bounds_, [&](std::span<const PreparedRay> batch, std::size_t first) {
       const std::span<Hit> found = hits.subspan(first, batch.size());
       std::transform(batch.begin(), batch.end(), found.begin(), nothing_yet);
-      const auto trace = [&](const Bvh& bvh, const Lanes& lanes, TraversalCounts* spent) {
+      const auto trace = [&](const auto& structure, const Lanes& lanes, TraversalCounts* spent) {
         std::array<Hit, batch_size> local;
         for (std::size_t k = 0; k < lanes.count; ++k) local[k] = nothing_yet(lanes.rays[k]);
-        closest_hits(bvh, lanes.span(), std::span(local.data(), lanes.count), spent);
+        closest_hits(structure, lanes.span(), std::span(local.data(), lanes.count), spent);
         for (std::size_t k = 0; k < lanes.count; ++k) found[lanes.index[k]] = finished(local[k]);
         return [found](std::size_t i) { return found[i].valid(); };
       };
@@ -96,9 +100,9 @@ class LocalBvhsOverGlobal final : public LocalBvhs {
     std::fill_n(results.begin(), rays.size(), std::uint8_t{0});
     for_batches(rays, bounds_, [&](std::span<const PreparedRay> batch, std::size_t first) {
       const std::span<std::uint8_t> found = results.subspan(first, batch.size());
-      const auto trace = [&](const Bvh& bvh, const Lanes& lanes, TraversalCounts* spent) {
+      const auto trace = [&](const auto& structure, const Lanes& lanes, TraversalCounts* spent) {
         std::array<std::uint8_t, batch_size> local{};
-        pah::occluded(bvh, lanes.span(), std::span(local.data(), lanes.count), spent);
+        pah::occluded(structure, lanes.span(), std::span(local.data(), lanes.count), spent);
         for (std::size_t k = 0; k < lanes.count; ++k) found[lanes.index[k]] = local[k];
         return [found](std::size_t i) { return found[i] != 0; };
       };
@@ -159,16 +163,16 @@ class LocalBvhsOverGlobal final : public LocalBvhs {
     area.region = local.triangles.region;
     area.end_margin = local.triangles.end_margin;
     area.holds_scene = local.triangles.subset.size() == triangles.size();
-    area.bvh = std::move(local.built.bvh);
 
     const HitProbability probability(declared.area);
     LocalBvhReport report;
     report.triangles = local.triangles.subset.size();
-    report.bytes = area.bvh.memory_bytes();
+    report.bytes = local.built.bvh.memory_bytes();
     report.build_seconds = local.seconds;
     report.predicted_cost = bundle_cost(local.built.tree, config.build, probability);
     report.global_cost = bundle_cost(global, BuildConfig{}, probability);
     reports_.push_back(report);
+    area.structure = std::move(local.built.bvh);
     areas_.push_back(std::move(area));
   }
 
@@ -183,8 +187,8 @@ class LocalBvhsOverGlobal final : public LocalBvhs {
     return {};
   }
 
-  // Calls `trace(bvh, lanes, counts)` for the rays of each area, then for those that are still
-  // open. It returns a function that tells whether ray i of the batch has hit something.
+  // Calls `trace(structure, lanes, counts)` for the rays of each area, then for those that are
+  // still open. It returns a function that tells whether ray i of the batch has hit something.
   template <typename Trace>
   void answer(std::span<const Ray> rays, std::span<const PreparedRay> batch,
               TraversalCounts* counts, const Trace& trace) const {
@@ -209,7 +213,11 @@ class LocalBvhsOverGlobal final : public LocalBvhs {
         done[k] = true;
       }
       TraversalCounts spent;
-      const auto hit = trace(areas_[area].bvh, lanes, counts == nullptr ? nullptr : &spent);
+      const auto hit = std::visit(
+          [&](const auto& structure) {
+            return trace(structure, lanes, counts == nullptr ? nullptr : &spent);
+          },
+          areas_[area].structure);
       const std::size_t open_before = open.count;
       for (std::size_t k = 0; k < lanes.count; ++k) {
         const std::size_t ray = lanes.index[k];

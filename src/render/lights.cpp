@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "geometry/normal.hpp"
 #include "render/shading_frame.hpp"
 #include "render/spawn.hpp"
 #include "render/spherical_triangle.hpp"
@@ -18,10 +19,6 @@ constexpr float pi = std::numbers::pi_v<float>;
 constexpr double narrowest_sun = 1000 * 0x1p-24;
 
 float mean_of(const Vec3& color) { return (color.x + color.y + color.z) / 3; }
-
-DVec3 scaled_normal(const Triangle& triangle) {
-  return glm::cross(DVec3(triangle.b) - DVec3(triangle.a), DVec3(triangle.c) - DVec3(triangle.a));
-}
 
 bool inside_cone(const DirectionalEmitter& sun, const Vec3& direction) {
   const Vec3 chord = direction - sun.axis;

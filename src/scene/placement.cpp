@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <unordered_map>
 
+#include "geometry/normal.hpp"
 #include "scene/mix_bits.hpp"
 
 namespace pah {
@@ -207,7 +208,7 @@ std::vector<glm::dmat4x3> scatter(const Mesh& mesh, const glm::dmat4x3& world_fr
     const DVec3 a = corner(t.x);
     const DVec3 b = corner(t.y);
     const DVec3 c = corner(t.z);
-    total += glm::length(glm::cross(b - a, c - a));
+    total += glm::length(scaled_normal(a, b, c));
     areas.push_back(total);
     low = glm::min(low, glm::min(a, glm::min(b, c)));
     high = glm::max(high, glm::max(a, glm::max(b, c)));
@@ -225,7 +226,7 @@ std::vector<glm::dmat4x3> scatter(const Mesh& mesh, const glm::dmat4x3& world_fr
         const DVec3 c = corner(t.z);
         const double root = std::sqrt(random_number(options.seed, i, draw_u));
         const double v = root * random_number(options.seed, i, draw_v);
-        const DVec3 normal = glm::cross(b - a, c - a);
+        const DVec3 normal = scaled_normal(a, b, c);
         const double length = glm::length(normal);
         return SurfacePoint{(1 - root) * a + (root - v) * b + v * c,
                             length > 0 ? side * normal / length : DVec3{0, 1, 0}};

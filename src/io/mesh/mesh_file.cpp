@@ -10,6 +10,7 @@
 #include <pah/scene/placement.hpp>
 #include <sstream>
 
+#include "geometry/normal.hpp"
 #include "io/mesh/access.hpp"
 #include "io/mesh/gltf.hpp"
 #include "io/mesh/materials.hpp"
@@ -185,8 +186,7 @@ class MeshReader {
       if (length > 0 && std::isfinite(length)) return Vec3(n / length);
     }
     // Files have normals of no length where triangles have no area, too.
-    const DVec3 flat = glm::cross(DVec3(positions[1]) - DVec3(positions[0]),
-                                  DVec3(positions[2]) - DVec3(positions[0]));
+    const DVec3 flat = scaled_normal({positions[0], positions[1], positions[2]});
     const double length = glm::length(flat);
     return length > 0 ? Vec3(flat / length) : Vec3(0, 1, 0);
   }

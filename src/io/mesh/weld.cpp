@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "geometry/normal.hpp"
+
 namespace pah {
 namespace {
 
@@ -95,7 +97,7 @@ void smooth_normals(Mesh& mesh) {
   for (const UVec3& t : mesh.triangles) {
     const DVec3 corners[3] = {DVec3(mesh.positions[t.x]), DVec3(mesh.positions[t.y]),
                               DVec3(mesh.positions[t.z])};
-    const DVec3 normal = glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
+    const DVec3 normal = scaled_normal(corners[0], corners[1], corners[2]);
     const double length = glm::length(normal);
     if (!(length > 0)) continue;
     for (int k = 0; k < 3; ++k) {

@@ -5,6 +5,7 @@
 #include <limits>
 #include <pah/scene/placement.hpp>
 
+#include "geometry/rounding.hpp"
 #include "io/scene/reading.hpp"
 
 namespace pah {
@@ -22,8 +23,7 @@ bool invertible(const DMat4& m) {
     determinant += plus - minus;
     magnitude += std::abs(plus) + std::abs(minus);
   }
-  constexpr double unit_roundoff = std::numeric_limits<double>::epsilon() / 2;
-  return std::isfinite(magnitude) && std::abs(determinant) > 8 * unit_roundoff * magnitude;
+  return std::isfinite(magnitude) && std::abs(determinant) > 8 * double_unit_roundoff * magnitude;
 }
 
 bool read_axis(MapReader& map, DVec3& axis) {
