@@ -50,9 +50,10 @@ using Bins = std::array<std::array<Bin, max_bins>, 3>;
 
 // What a sweep notes. Kept for each thread: clearing it costs more than most nodes do.
 struct Halves {
-  std::array<Aabb, 2 * max_bins> boxes;
-  std::array<std::uint32_t, 2 * max_bins> counts;
-  std::array<float, 2 * max_bins> measures;
+  static constexpr std::size_t size = std::size_t{2} * max_bins;
+  std::array<Aabb, size> boxes;
+  std::array<std::uint32_t, size> counts;
+  std::array<float, size> measures;
 };
 
 struct Split {
@@ -222,7 +223,8 @@ class Builder {
       boxes[i] = left.box;
       counts[i] = left.count;
     }
-    heuristic_.measure(std::span(boxes).first(2 * splits), std::span(measures).first(2 * splits));
+    const std::size_t used = std::size_t{2} * splits;
+    heuristic_.measure(std::span(boxes).first(used), std::span(measures).first(used));
     for (std::uint32_t i = 0; i < splits; ++i) {
       if (counts[i] == 0 || counts[splits + i] == 0) continue;
       const float right_cost = measures[splits + i] * leaf_cost(counts[splits + i], side_by_side_);
