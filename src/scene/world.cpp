@@ -186,7 +186,7 @@ std::vector<Slot> lay_out(const Scene& scene, World& world) {
   return slots;
 }
 
-// The centre of the scene, in double and halved before adding.
+// The center of the scene, in double and halved before adding.
 DVec3 center_of(const Scene& scene) {
   std::vector<Bounds> boxes(scene.instances.size());
   std::vector<Fault> faults(scene.instances.size(), Fault::none);

@@ -231,14 +231,14 @@ TEST_CASE("a header that asks for the moon gets nothing") {
   CHECK(has(message_of([&] { (void)read_image(folder / "huge.hdr"); }), "huge.hdr"));
 }
 
-TEST_CASE("grey pictures are read as linear heights") {
+TEST_CASE("gray pictures are read as linear heights") {
   const TemporaryFolder folder;
-  const auto out = OIIO::ImageOutput::create("grey.png");
-  REQUIRE(out->open((folder / "grey.png").string(), OIIO::ImageSpec(2, 1, 1, OIIO::TypeUInt16)));
+  const auto out = OIIO::ImageOutput::create("gray.png");
+  REQUIRE(out->open((folder / "gray.png").string(), OIIO::ImageSpec(2, 1, 1, OIIO::TypeUInt16)));
   const std::uint16_t values[2] = {0, 32768};
   REQUIRE(out->write_image(OIIO::TypeUInt16, values));
   REQUIRE(out->close());
-  const Image image = read_image(folder / "grey.png");
+  const Image image = read_image(folder / "gray.png");
   CHECK(image.pixels[0] == Vec3(0));
   CHECK(image.pixels[1].z == Approx(32768.0 / 65535));
 }

@@ -77,7 +77,7 @@ TEST_CASE("all errors are reported at once, in order") {
                   "  - {name: sun, type: directional, irradiance: much}\n"
                   "film: {width: 0}\n"
                   "render: {samples: -3, sed: 1}\n") ==
-        "scene.yaml:2:48: error: 'irradiance' of light 'sun' must be a colour ([r, g, b], a number "
+        "scene.yaml:2:48: error: 'irradiance' of light 'sun' must be a color ([r, g, b], a number "
         "or \"#rrggbb\"), not 'much'\n"
         "scene.yaml:3:15: error: 'width' of film must be a whole number between 1 and 65536, not "
         "0\n"
@@ -268,7 +268,7 @@ TEST_CASE("bad materials and textures") {
        "scene.yaml:1:56: error: 'reflectance' of material 'white' must be between 0 and 1, not "
        "1.01"},
       {"materials: {white: {type: diffuse, reflectance: \"#12345g\"}}",
-       "scene.yaml:1:49: error: 'reflectance' of material 'white' must be a colour ([r, g, b], a "
+       "scene.yaml:1:49: error: 'reflectance' of material 'white' must be a color ([r, g, b], a "
        "number or \"#rrggbb\"), not '#12345g'"},
       {"materials: {g: {type: glass, ior: 0}}",
        "scene.yaml:1:35: error: 'ior' of material 'g' must be greater than 0, not 0"},

@@ -116,9 +116,9 @@ TEST_CASE("a scene far away loses nothing") {
   for (std::size_t i = 0; i < a.positions.size(); ++i)
     CHECK(glm::distance(a.positions[i], b.positions[i]) < 3e-8F);
   CHECK(glm::distance(b.origin, away) < 1e-9);
-  const auto& recentred = std::get<PerspectiveCamera>(b.camera);
-  CHECK(glm::distance(recentred.position, DVec3(0, 1, 5)) < 1e-9);
-  CHECK(glm::distance(recentred.look_at, DVec3(0)) < 1e-9);
+  const auto& recentered = std::get<PerspectiveCamera>(b.camera);
+  CHECK(glm::distance(recentered.position, DVec3(0, 1, 5)) < 1e-9);
+  CHECK(glm::distance(recentered.look_at, DVec3(0)) < 1e-9);
   CHECK(glm::distance(std::get<PointLight>(b.lights[0].model).position, DVec3(0, 3, 0)) < 1e-9);
   CHECK(glm::distance(std::get<SpotLight>(b.lights[1].model).position, DVec3(0, 4, 0)) < 1e-9);
 }
