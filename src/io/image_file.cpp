@@ -231,7 +231,7 @@ void write_image(const fs::path& file, const std::vector<ImageLayer>& layers,
 Image read_image(const fs::path& file, std::uint64_t max_bytes) {
   std::error_code error;
   const fs::file_status status = fs::status(file, error);
-  if (!fs::exists(status)) fail_to_read(file, "there is no such file");
+  if (!fs::exists(status)) fail_to_read(file, "it does not exist");
   if (!fs::is_regular_file(status)) fail_to_read(file, "it is not a file");
   try {
     // The decoders allocate what the header asks for.

@@ -202,7 +202,7 @@ TEST_CASE("what cannot be read is said") {
   const auto read = [](const std::filesystem::path& file, std::uint64_t limit = 1 << 20) {
     return message_of([&] { (void)read_image(file, limit); });
   };
-  CHECK(has(read(folder / "none.png"), "no such file"));
+  CHECK(has(read(folder / "none.png"), "it does not exist"));
   CHECK(has(read(folder.path()), "not a file"));
   std::ofstream(folder / "text.png") << "no picture at all";
   CHECK(has(read(folder / "text.png"), "text.png"));
@@ -215,7 +215,7 @@ TEST_CASE("what cannot be read is said") {
     write_image(file, picture(ramp(64, 64)));
     CHECK(read(file).empty());
     CHECK(has(read(file, 64 * 64), "64 x 64 pixels"));
-    // Cut short: an error, or for lenient decoders the part that there is; never a crash.
+    // Cut short: an error, or for lenient decoders the part that is there; never a crash.
     const auto size = std::filesystem::file_size(file);
     for (const auto part : {size / 8, size / 2, size - 1}) {
       std::filesystem::resize_file(file, part);

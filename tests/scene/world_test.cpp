@@ -163,7 +163,8 @@ TEST_CASE("faults are named") {
   CHECK(message(scene).find("'thing': its transform") != std::string::npos);
   scene = scene_of(BoxShape{});
   scene.meshes[0].triangles[3].y = 24;
-  CHECK(message(scene).find("'thing': a triangle names a vertex") != std::string::npos);
+  CHECK(message(scene).find("'thing': a triangle names no vertex of its mesh") !=
+        std::string::npos);
   scene = scene_of(BoxShape{});
   scene.meshes[0].positions[3].y = NAN;
   CHECK(message(scene).find("'thing': a position") != std::string::npos);
@@ -172,7 +173,8 @@ TEST_CASE("faults are named") {
   CHECK(message(scene).find("'thing': a normal") != std::string::npos);
   scene = scene_of(BoxShape{});
   scene.instances[0].material = 1;
-  CHECK(message(scene).find("'thing': its instance names a material") != std::string::npos);
+  CHECK(message(scene).find("'thing': its instance names no material of the scene") !=
+        std::string::npos);
   // Tiny scenes are fine.
   CHECK(message(scene_of(BoxShape{}, scaling(DVec3{1e-40}))).empty());
 }

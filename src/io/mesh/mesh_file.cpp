@@ -75,7 +75,7 @@ ImportedScene::ImportedScene(const fs::path& file, const MeshFileOptions& option
     for (const std::string& name : known) available += (available.empty() ? "" : ", ") + name;
     throw MeshFileError("unknown mesh format '" + extension + "'; available are " + available);
   }
-  if (!fs::is_regular_file(file, error)) throw MeshFileError("there is no such file");
+  if (!fs::is_regular_file(file, error)) throw MeshFileError("it does not exist, or is not a file");
   if (fs::file_size(file, error) > options.file_bytes)
     throw MeshFileError("the file is larger than " + std::to_string(options.file_bytes >> 20) +
                         " MB");
@@ -112,7 +112,7 @@ void ImportedScene::check(const MeshFileOptions& options) const {
       if (face.mNumIndices > 2) triangles += face.mNumIndices - 2;
     }
     if (mesh.mMaterialIndex >= scene_->mNumMaterials)
-      throw MeshFileError("a mesh uses a material that there is not");
+      throw MeshFileError("a mesh uses no material of the file");
   }
   if (triangles > options.triangles)
     throw MeshFileError("more than " + std::to_string(options.triangles) + " triangles");
