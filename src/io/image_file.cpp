@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "image/srgb.hpp"
+#include "io/extension.hpp"
 #include "io/output_file.hpp"
 
 namespace pah {
@@ -47,9 +48,7 @@ std::string or_unknown(std::string message) {
 }
 
 const Format& format_of(const fs::path& file) {
-  std::string extension = file.extension().string();
-  for (char& c : extension)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  const std::string extension = lower_extension(file);
   for (const Format& format : formats)
     if (extension == format.extension) return format;
   std::string available;

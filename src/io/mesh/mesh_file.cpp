@@ -10,6 +10,7 @@
 #include <pah/scene/placement.hpp>
 #include <sstream>
 
+#include "io/extension.hpp"
 #include "io/mesh/access.hpp"
 #include "io/mesh/gltf.hpp"
 #include "io/mesh/materials.hpp"
@@ -23,13 +24,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr unsigned max_polygon_corners = 10'000;  // triangulation takes their square, or more
-
-std::string extension_of(const fs::path& file) {
-  std::string extension = file.extension().string();
-  for (char& c : extension)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  return extension;
-}
 
 // Leaves the importer of one format, whatever the file looks like inside.
 void keep_importer(Assimp::Importer& importer, const std::string& extension) {
@@ -68,7 +62,7 @@ class ImportedScene {
 
 ImportedScene::ImportedScene(const fs::path& file, const MeshFileOptions& options, bool strict) {
   std::error_code error;
-  const std::string extension = extension_of(file);
+  const std::string extension = lower_extension(file);
   const auto& known = mesh_extensions();
   if (std::find(known.begin(), known.end(), extension) == known.end()) {
     std::string available;
@@ -242,7 +236,7 @@ std::vector<Placed> placed_meshes(const aiScene& scene) {
 
 // STL has normals of triangles only, which is to say none.
 bool wants_normals(const fs::path& file, const MeshFileOptions& options) {
-  return options.normals == MeshNormals::file && extension_of(file) != ".stl";
+  return options.normals == MeshNormals::file && lower_extension(file) != ".stl";
 }
 
 Mesh finished(MeshBuilder& builder, const MeshFileOptions& options) {
