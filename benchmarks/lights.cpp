@@ -13,7 +13,7 @@
 namespace pah::bench {
 namespace {
 
-constexpr double room = 8;   // the side of the floor, metres
+constexpr double room = 8;   // the side of the floor, meters
 constexpr double stage = 4;  // of the square that most spots of many_spots.yaml light
 
 struct Draw {
@@ -37,7 +37,7 @@ std::vector<Draw> draws(const World& world, double side) {
   return made;
 }
 
-// A floor and a light; if it is an area light, that of a panel two metres above.
+// A floor and a light; if it is an area light, that of a panel two meters above.
 World world_with(const Light& light) {
   Scene scene;
   scene.materials.emplace_back();

@@ -27,7 +27,7 @@ fs::path mesh_folder() {
 
 fs::path file_of(const std::string& mesh) { return mesh_folder() / (mesh + ".obj"); }
 
-// Two metres in its largest extent, its lowest point on the floor.
+// Two meters in its largest extent, its lowest point on the floor.
 glm::dmat4x3 on_the_floor(const Mesh& mesh) {
   Aabb box;
   for (const Vec3& position : mesh.positions) box.extend(position);

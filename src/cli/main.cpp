@@ -163,7 +163,7 @@ CLI::App* add_inspect(CLI::App& app, InspectArguments& arguments) {
       ->type_name("FILE.png");
   inspect
       ->add_option("--boxes", arguments.boxes,
-                   "Write the boxes of the topmost levels as lines, a\ncolour for each level")
+                   "Write the boxes of the topmost levels as lines, a\ncolor for each level")
       ->type_name("FILE.gltf");
   inspect->add_option("--levels", arguments.levels, "How many levels --boxes writes")
       ->capture_default_str()

@@ -16,6 +16,7 @@
 #include "cli/console.hpp"
 #include "cli/film_size.hpp"
 #include "cli/interrupt.hpp"
+#include "io/extension.hpp"
 #include "io/output_file.hpp"
 #include "report/stats.hpp"
 
@@ -37,10 +38,7 @@ class Stopwatch {
 
 // Extensions are matched as write_image matches them: whatever their case.
 bool has_image_extension(const fs::path& file) {
-  std::string extension = file.extension().string();
-  for (char& c : extension)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  return std::ranges::find(image_extensions(), extension) != image_extensions().end();
+  return std::ranges::find(image_extensions(), lower_extension(file)) != image_extensions().end();
 }
 
 fs::path output_of(const RenderArguments& arguments) {

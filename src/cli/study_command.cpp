@@ -10,6 +10,7 @@
 #include <pah/scene/world.hpp>
 
 #include "cli/console.hpp"
+#include "io/extension.hpp"
 #include "io/output_file.hpp"
 #include "report/study/study.hpp"
 
@@ -17,13 +18,6 @@ namespace pah::cli {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string lower_extension(const fs::path& file) {
-  std::string extension = file.extension().string();
-  for (char& c : extension)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  return extension;
-}
 
 bool is_scene(const fs::path& file) {
   return lower_extension(file) == ".yaml" || lower_extension(file) == ".yml";

@@ -9,7 +9,7 @@ namespace pah {
 
 namespace {
 
-// A box relative to an origin, as corners and as centre and half-extent.
+// A box relative to an origin, as corners and as center and half-extent.
 struct RelativeBox {
   RelativeBox(const Aabb& box, const DVec3& origin)
       : low(DVec3(box.min) - origin),

@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "image/srgb.hpp"
+#include "io/extension.hpp"
 #include "io/output_file.hpp"
 
 namespace pah {
@@ -47,9 +48,7 @@ std::string or_unknown(std::string message) {
 }
 
 const Format& format_of(const fs::path& file) {
-  std::string extension = file.extension().string();
-  for (char& c : extension)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  const std::string extension = lower_extension(file);
   for (const Format& format : formats)
     if (extension == format.extension) return format;
   std::string available;
@@ -231,7 +230,7 @@ void write_image(const fs::path& file, const std::vector<ImageLayer>& layers,
 Image read_image(const fs::path& file, std::uint64_t max_bytes) {
   std::error_code error;
   const fs::file_status status = fs::status(file, error);
-  if (!fs::exists(status)) fail_to_read(file, "there is no such file");
+  if (!fs::exists(status)) fail_to_read(file, "it does not exist");
   if (!fs::is_regular_file(status)) fail_to_read(file, "it is not a file");
   try {
     // The decoders allocate what the header asks for.

@@ -38,7 +38,7 @@ struct MetalBsdf {
 
 // A specular layer over a diffuse base, for plastic and the principled model. The layer reflects
 // (1 - metallic) F_dielectric + metallic F_Schlick; the base is base T(wi) T(wo) / pi, where T is
-// what the dielectric lets through and `base` has been normalised for it (bsdf_coated.hpp).
+// what the dielectric lets through and `base` has been normalized for it (bsdf_coated.hpp).
 struct CoatedBsdf {
   Vec3 base{0};
   float eta = 1.5F;
@@ -72,7 +72,7 @@ struct BsdfSample {
 // False if all lobes are delta: no light can then be connected to.
 [[nodiscard]] bool has_smooth_lobes(const Bsdf& bsdf);
 
-// An approximate colour, for denoising.
+// An approximate color, for denoising.
 [[nodiscard]] Vec3 albedo(const Bsdf& bsdf);
 
 }  // namespace pah

@@ -8,7 +8,7 @@
 namespace pah {
 
 CoatedBsdf make_plastic(const Vec3& reflectance, float ior, float alpha) {
-  // (1 - F_i) / (1 - F_e) = 1 / n^2 normalises T(wo) T(wi); the series of inner reflections sums to
+  // (1 - F_i) / (1 - F_e) = 1 / n^2 normalizes T(wo) T(wi); the series of inner reflections sums to
   // 1 / (1 - R F_i).
   const float outer = average_fresnel_dielectric(ior);
   const float inner = 1 - (1 - outer) / (ior * ior);

@@ -33,7 +33,7 @@ namespace pah::models {
 
 [[nodiscard]] inline Vec3 mirrored(const Vec3& w) { return {-w.x, -w.y, w.z}; }
 
-// The weight by which colours choose lobes.
+// The weight by which colors choose lobes.
 [[nodiscard]] inline float mean(const Vec3& color) {
   return (color.x + color.y + color.z) * (1.0F / 3.0F);
 }

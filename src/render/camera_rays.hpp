@@ -24,7 +24,7 @@ class CameraRays {
   // The filter is importance-sampled: every sample belongs to its pixel, with weight 1.
   [[nodiscard]] CameraRay generate(int x, int y, Sampler& sampler) const;
 
-  // Through the centres of the pixel and of the lens.
+  // Through the centers of the pixel and of the lens.
   [[nodiscard]] Ray central(int x, int y) const;
 
  private:

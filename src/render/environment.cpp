@@ -48,7 +48,7 @@ Vec3 direction_from_lat_long(const Vec2& uv) {
 LatLongDistribution::LatLongDistribution(std::span<const float> brightness, int width, int height)
     : width_(width), height_(height) {
   const auto w = static_cast<std::size_t>(width), h = static_cast<std::size_t>(height);
-  // Bilinear interpolation between texel centres, integrated over one texel: 1/8, 6/8, 1/8.
+  // Bilinear interpolation between texel centers, integrated over one texel: 1/8, 6/8, 1/8.
   const auto filtered_row = [&](std::size_t x, std::size_t y) {
     const float* row = brightness.data() + y * w;
     return 0.125 * static_cast<double>(row[(x + w - 1) % w]) + 0.75 * static_cast<double>(row[x]) +

@@ -9,7 +9,7 @@
 namespace pah {
 
 // A direction in the light's own frame and texture coordinates, v from the top: the picture's
-// centre is direction -z, its top +y, and u grows to the right, towards +x.
+// center is direction -z, its top +y, and u grows to the right, towards +x.
 [[nodiscard]] Vec2 lat_long_from_direction(const Vec3& direction);
 [[nodiscard]] Vec3 direction_from_lat_long(const Vec2& uv);
 
@@ -21,7 +21,7 @@ class LatLongDistribution {
     float pdf = 0;  // per steradian
   };
 
-  // `brightness`: the mean of each texel's colour, rows from the top, >= 0. A texel's weight is the
+  // `brightness`: the mean of each texel's color, rows from the top, >= 0. A texel's weight is the
   // integral of the bilinear interpolant over it, so that the density is positive wherever the
   // filtered picture is.
   LatLongDistribution(std::span<const float> brightness, int width, int height);

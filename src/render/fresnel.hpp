@@ -1,5 +1,5 @@
 // What share of light a smooth boundary reflects. Cosines are of the angle to the normal, in
-// [0, 1]; light is unpolarised.
+// [0, 1]; light is unpolarized.
 #pragma once
 
 #include <pah/geometry/vec.hpp>

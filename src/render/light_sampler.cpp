@@ -141,7 +141,7 @@ LightSampler::LightSampler(std::vector<Placed> placed, std::vector<Distant> dist
   build(placed, 0, 0);
 }
 
-// Splits at the best of some planes across the boxes' centres; halves where all centres agree, and
+// Splits at the best of some planes across the boxes' centers; halves where all centers agree, and
 // past a depth that no sane set of lights reaches.
 std::uint32_t LightSampler::build(std::span<Placed> lights, std::uint32_t parent, int depth) {
   const auto index = static_cast<std::uint32_t>(nodes_.size());

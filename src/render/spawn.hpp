@@ -12,7 +12,7 @@
 
 namespace pah {
 
-// The neighbouring floats; x is finite.
+// The neighboring floats; x is finite.
 inline float next_float_up(float x) {
   if (x == 0) return std::numeric_limits<float>::denorm_min();
   const auto bits = std::bit_cast<std::uint32_t>(x);

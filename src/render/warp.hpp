@@ -24,7 +24,7 @@ namespace pah {
 // Barycentric weights of a triangle's second and third vertex; density per area 1 / area.
 [[nodiscard]] Vec2 sample_uniform_triangle(Vec2 u);
 
-// An offset from the pixel's centre, distributed as the Blackman-Harris window over
+// An offset from the pixel's center, distributed as the Blackman-Harris window over
 // [-radius, radius]^2, or uniform for the box filter. All samples then weigh the same.
 [[nodiscard]] Vec2 sample_blackman_harris(Vec2 u, float radius);
 [[nodiscard]] float pdf_blackman_harris(Vec2 offset, float radius);

@@ -1,4 +1,4 @@
-// What a BVH costs real rays: one through the centre of every pixel.
+// What a BVH costs real rays: one through the center of every pixel.
 #pragma once
 
 #include <cstdint>

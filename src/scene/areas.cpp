@@ -167,8 +167,8 @@ std::uint32_t bundle_of(const World& world, const std::string& light) {
   if (light == camera_name) return camera_bundle;
   const auto found = std::ranges::find(world.lights, light, &Light::name);
   if (found == world.lights.end())
-    throw std::invalid_argument("an influence area names the light '" + light +
-                                "', which there is not");
+    throw std::invalid_argument("an influence area names '" + light +
+                                "', which is no light of the scene");
   return static_cast<std::uint32_t>(found - world.lights.begin());
 }
 

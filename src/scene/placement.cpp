@@ -22,7 +22,7 @@ void require(bool condition, const char* message) {
   if (!condition) throw std::invalid_argument(message);
 }
 
-// A uniform number in [0, 1) that depends on its arguments alone: a counter through the finaliser
+// A uniform number in [0, 1) that depends on its arguments alone: a counter through the finalizer
 // of SplitMix64 (Steele, Lea, Flood, "Fast Splittable Pseudorandom Number Generators", 2014).
 double random_number(std::uint64_t seed, std::uint64_t index, std::uint64_t dimension) {
   const auto mix = [](std::uint64_t z) { return mix_bits(z + 0x9E3779B97F4A7C15ULL); };

@@ -28,7 +28,7 @@ const char* text_of(Fault fault) {
     case Fault::none:
       break;
     case Fault::index:
-      return "a triangle names a vertex that there is not";
+      return "a triangle names no vertex of its mesh";
     case Fault::position:
       return "a position is not finite, or too large once transformed";
     case Fault::normal:
@@ -89,12 +89,12 @@ DMat3 normalized_linear(const glm::dmat4x3& m) {
 
 void require_valid(const Scene& scene, const Instance& instance) {
   if (instance.mesh >= scene.meshes.size())
-    throw std::invalid_argument("an instance names a mesh that there is not");
+    throw std::invalid_argument("an instance names no mesh of the scene");
   const Mesh& mesh = scene.meshes[instance.mesh];
   if (instance.material >= scene.materials.size())
-    fail(mesh, "its instance names a material that there is not");
+    fail(mesh, "its instance names no material of the scene");
   if (instance.light != no_light && instance.light >= scene.lights.size())
-    fail(mesh, "its instance names a light that there is not");
+    fail(mesh, "its instance names no light of the scene");
   if (!mesh.normals.empty() && mesh.normals.size() != mesh.positions.size())
     fail(mesh, "as many normals as positions are needed, or none");
   if (!mesh.uvs.empty() && mesh.uvs.size() != mesh.positions.size())
@@ -186,7 +186,7 @@ std::vector<Slot> lay_out(const Scene& scene, World& world) {
   return slots;
 }
 
-// The centre of the scene, in double and halved before adding.
+// The center of the scene, in double and halved before adding.
 DVec3 center_of(const Scene& scene) {
   std::vector<Bounds> boxes(scene.instances.size());
   std::vector<Fault> faults(scene.instances.size(), Fault::none);

@@ -156,7 +156,7 @@ TEST_CASE("A ray leaves a region where it says, or a little before") {
       ++inside;
       REQUIRE(t >= 0);
       REQUIRE(t < inf);
-      // The point at t, to the float: its float neighbourhood touches the region, and one a
+      // The point at t, to the float: its float neighborhood touches the region, and one a
       // little further has left it.
       const auto at = [&](double s) { return DVec3(ray.origin) + s * DVec3(ray.direction); };
       const auto point = [&](double s) {

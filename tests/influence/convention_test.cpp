@@ -46,7 +46,7 @@ TEST_CASE("Projections agree with GLM's matrices") {
   }
 }
 
-TEST_CASE("The thesis's orthographic matrix misplaces what is off centre") {
+TEST_CASE("The thesis's orthographic matrix misplaces what is off center") {
   const double left = 2, right = 6, bottom = -1, top = 1, far = 10;
   const auto printed = [&](const DVec3& p) {
     return DVec3(2 / (right - left) * p.x + (left + right) / 2,

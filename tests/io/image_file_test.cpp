@@ -202,7 +202,7 @@ TEST_CASE("what cannot be read is said") {
   const auto read = [](const std::filesystem::path& file, std::uint64_t limit = 1 << 20) {
     return message_of([&] { (void)read_image(file, limit); });
   };
-  CHECK(has(read(folder / "none.png"), "no such file"));
+  CHECK(has(read(folder / "none.png"), "it does not exist"));
   CHECK(has(read(folder.path()), "not a file"));
   std::ofstream(folder / "text.png") << "no picture at all";
   CHECK(has(read(folder / "text.png"), "text.png"));
@@ -215,7 +215,7 @@ TEST_CASE("what cannot be read is said") {
     write_image(file, picture(ramp(64, 64)));
     CHECK(read(file).empty());
     CHECK(has(read(file, 64 * 64), "64 x 64 pixels"));
-    // Cut short: an error, or for lenient decoders the part that there is; never a crash.
+    // Cut short: an error, or for lenient decoders the part that is there; never a crash.
     const auto size = std::filesystem::file_size(file);
     for (const auto part : {size / 8, size / 2, size - 1}) {
       std::filesystem::resize_file(file, part);
@@ -231,14 +231,14 @@ TEST_CASE("a header that asks for the moon gets nothing") {
   CHECK(has(message_of([&] { (void)read_image(folder / "huge.hdr"); }), "huge.hdr"));
 }
 
-TEST_CASE("grey pictures are read as linear heights") {
+TEST_CASE("gray pictures are read as linear heights") {
   const TemporaryFolder folder;
-  const auto out = OIIO::ImageOutput::create("grey.png");
-  REQUIRE(out->open((folder / "grey.png").string(), OIIO::ImageSpec(2, 1, 1, OIIO::TypeUInt16)));
+  const auto out = OIIO::ImageOutput::create("gray.png");
+  REQUIRE(out->open((folder / "gray.png").string(), OIIO::ImageSpec(2, 1, 1, OIIO::TypeUInt16)));
   const std::uint16_t values[2] = {0, 32768};
   REQUIRE(out->write_image(OIIO::TypeUInt16, values));
   REQUIRE(out->close());
-  const Image image = read_image(folder / "grey.png");
+  const Image image = read_image(folder / "gray.png");
   CHECK(image.pixels[0] == Vec3(0));
   CHECK(image.pixels[1].z == Approx(32768.0 / 65535));
 }

@@ -275,7 +275,7 @@ TEST_CASE("only known formats are read, by their names") {
   const TemporaryFolder folder;
   CHECK(has(error_of(write(folder, "a.fbx", "")).what(),
             "unknown mesh format '.fbx'; available are .obj, .ply"));
-  CHECK(has(error_of(folder / "none.obj").what(), "no such file"));
+  CHECK(has(error_of(folder / "none.obj").what(), "it does not exist"));
   CHECK(has(error_of(folder.path()).what(), "unknown mesh format"));
   // Not what the name says: no other importer is tried.
   CHECK_FALSE(error_of(write(folder, "a.stl", ascii_ply())).what() == std::string());

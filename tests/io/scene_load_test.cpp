@@ -133,7 +133,7 @@ TEST_CASE("metals reflect as much as they do") {
   CHECK(reflectance(0, 2) < 0.5);                           // hardly blue
   CHECK(reflectance(1, 1) > 0.95);                          // silver
   CHECK(reflectance(2, 0) > reflectance(2, 1));             // copper
-  CHECK(reflectance(3, 1) == Approx(0.914).epsilon(0.02));  // aluminium
+  CHECK(reflectance(3, 1) == Approx(0.914).epsilon(0.02));  // aluminum
   CHECK(reflectance(4, 1) == Approx(0.53).epsilon(0.1));    // iron
 }
 
@@ -200,7 +200,7 @@ TEST_CASE("copies") {
   CHECK(over.scene.meshes.size() == 2);
 }
 
-TEST_CASE("textures stand for colours and numbers") {
+TEST_CASE("textures stand for colors and numbers") {
   const TemporaryFolder folder;
   write_text(folder / "picture.ppm", "P3\n2 2\n255\n1 2 3 4 5 6 7 8 9 10 11 12\n");
   const Scene scene = load_scene(write_text(folder / "scene.yaml", R"(
@@ -221,7 +221,7 @@ materials:
   CHECK(image(0).scale == DVec2(3));
   CHECK(image(0).clamp);
   CHECK(image(0).color_space == ColorSpace::automatic);
-  // Numbers are no colours: the same picture, linear.
+  // Numbers are no colors: the same picture, linear.
   CHECK(image(a.roughness.texture).color_space == ColorSpace::linear);
   CHECK(image(a.roughness.texture).scale == DVec2(3));
   CHECK(image(scene.materials[1].normal_map).color_space == ColorSpace::linear);

@@ -83,7 +83,7 @@ TEST_CASE("planted faults are found, with their place") {
           Faults{"include/pah/render/a.hpp:1: render must not include io"});
     CHECK(faults_of("src/io/a.cpp", "#include \"report/stats.hpp\"\n").size() == 1);
   }
-  SECTION("a neighbour between the same two bars") {
+  SECTION("a neighbor between the same two bars") {
     CHECK(faults_of("src/accel/a.cpp", "#include <pah/scene/scene.hpp>\n") ==
           Faults{"src/accel/a.cpp:1: accel must not include scene"});
     CHECK(faults_of("src/influence/a.cpp", "#include \"bvh/bvh.hpp\"\n").size() == 1);

@@ -18,7 +18,7 @@ Scene scene_with_area() {
   scene.film.width = 16;
   scene.film.height = 12;
   scene.render.samples = 2;
-  scene.materials.push_back({"grey", DiffuseMaterial{}});
+  scene.materials.push_back({"gray", DiffuseMaterial{}});
   scene.meshes = {make_mesh(SphereShape{}), make_mesh(RectangleShape{})};
   for (std::uint32_t i = 0; i < 2; ++i) {
     Instance instance;

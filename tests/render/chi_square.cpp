@@ -10,7 +10,7 @@ namespace {
 
 constexpr int rows = 10, columns = 20;
 
-// The upper regularised incomplete gamma function (Abramowitz and Stegun, 6.5.29 and 6.5.31).
+// The upper regularized incomplete gamma function (Abramowitz and Stegun, 6.5.29 and 6.5.31).
 double gamma_q(double a, double x) {
   if (x <= 0) return 1;
   const double front = std::exp(a * std::log(x) - x - std::lgamma(a));

@@ -162,7 +162,7 @@ TEST_CASE("an environment picture is sampled by its density, which integrates to
   CHECK(goodness_of_fit(counts, expected) > 0.01);
 }
 
-TEST_CASE("a lat-long picture has -z in its centre and +y at its top") {
+TEST_CASE("a lat-long picture has -z in its center and +y at its top") {
   CHECK(lat_long_from_direction({0, 0, -1}) == Vec2(0.5F, 0.5F));
   CHECK(lat_long_from_direction({1, 0, 0}) == Vec2(0.75F, 0.5F));
   CHECK(lat_long_from_direction({0, 1, 0}).y == 0);

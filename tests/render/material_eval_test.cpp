@@ -10,7 +10,7 @@ using namespace pah;
 
 namespace {
 
-// Textures that are constant: a checkerboard of one colour.
+// Textures that are constant: a checkerboard of one color.
 TextureStore constants(std::initializer_list<Vec3> colors) {
   std::vector<Texture> textures;
   for (const Vec3& color : colors) textures.emplace_back(CheckerTexture{color, color, {1, 1}});

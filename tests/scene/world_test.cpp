@@ -116,9 +116,9 @@ TEST_CASE("a scene far away loses nothing") {
   for (std::size_t i = 0; i < a.positions.size(); ++i)
     CHECK(glm::distance(a.positions[i], b.positions[i]) < 3e-8F);
   CHECK(glm::distance(b.origin, away) < 1e-9);
-  const auto& recentred = std::get<PerspectiveCamera>(b.camera);
-  CHECK(glm::distance(recentred.position, DVec3(0, 1, 5)) < 1e-9);
-  CHECK(glm::distance(recentred.look_at, DVec3(0)) < 1e-9);
+  const auto& recentered = std::get<PerspectiveCamera>(b.camera);
+  CHECK(glm::distance(recentered.position, DVec3(0, 1, 5)) < 1e-9);
+  CHECK(glm::distance(recentered.look_at, DVec3(0)) < 1e-9);
   CHECK(glm::distance(std::get<PointLight>(b.lights[0].model).position, DVec3(0, 3, 0)) < 1e-9);
   CHECK(glm::distance(std::get<SpotLight>(b.lights[1].model).position, DVec3(0, 4, 0)) < 1e-9);
 }
@@ -163,7 +163,8 @@ TEST_CASE("faults are named") {
   CHECK(message(scene).find("'thing': its transform") != std::string::npos);
   scene = scene_of(BoxShape{});
   scene.meshes[0].triangles[3].y = 24;
-  CHECK(message(scene).find("'thing': a triangle names a vertex") != std::string::npos);
+  CHECK(message(scene).find("'thing': a triangle names no vertex of its mesh") !=
+        std::string::npos);
   scene = scene_of(BoxShape{});
   scene.meshes[0].positions[3].y = NAN;
   CHECK(message(scene).find("'thing': a position") != std::string::npos);
@@ -172,7 +173,8 @@ TEST_CASE("faults are named") {
   CHECK(message(scene).find("'thing': a normal") != std::string::npos);
   scene = scene_of(BoxShape{});
   scene.instances[0].material = 1;
-  CHECK(message(scene).find("'thing': its instance names a material") != std::string::npos);
+  CHECK(message(scene).find("'thing': its instance names no material of the scene") !=
+        std::string::npos);
   // Tiny scenes are fine.
   CHECK(message(scene_of(BoxShape{}, scaling(DVec3{1e-40}))).empty());
 }

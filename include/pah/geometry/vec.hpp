@@ -1,6 +1,6 @@
 // The vector types of the project: GLM's, under short names.
 //
-// Right-handed, y up. World positions are double until a World recentres them (scene/world.hpp);
+// Right-handed, y up. World positions are double until a World recenters them (scene/world.hpp);
 // everything that a ray touches is float.
 #pragma once
 

@@ -54,7 +54,7 @@ struct BoxOutline {
 namespace detail {
 
 // The outline consists of the edges between a face that is seen and one that is not. Every seen
-// face is walked such that its two neighbours walk their common edge in opposite ways.
+// face is walked such that its two neighbors walk their common edge in opposite ways.
 constexpr BoxOutline make_outline(BoxSector sector) {
   // The four corners around the face on side 0 or 1 of axis k, counter-clockwise in the two
   // coordinates of a right-handed frame (right, up, forward) in which forward leads to the face.

@@ -15,7 +15,7 @@ namespace pah {
 // The axes, best first; equal ones in the order x, y, z.
 [[nodiscard]] std::array<int, 3> facing_axis_order(const DVec3& v);
 
-// The direction that stands for all rays through a box: of the ray through its centre.
+// The direction that stands for all rays through a box: of the ray through its center.
 [[nodiscard]] DVec3 mean_direction(const InfluenceArea& area, const Aabb& box);
 
 }  // namespace pah

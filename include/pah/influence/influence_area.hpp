@@ -2,7 +2,7 @@
 //
 // Every area has a right-handed frame (right, up, forward), forward being the way the rays are
 // looked along, and a picture plane with coordinates along right and up. A plane area projects onto
-// the plane through its centre, in units of length; a point area onto the plane at unit distance
+// the plane through its center, in units of length; a point area onto the plane at unit distance
 // from its eye, in tangents. No matrix with its signs and handedness is needed for either.
 #pragma once
 
@@ -30,7 +30,7 @@ struct PointArea {
 
 using InfluenceArea = std::variant<PlaneArea, PointArea>;
 
-// `position` is the centre of the face where rays start, `direction` any vector but 0; `size` and
+// `position` is the center of the face where rays start, `direction` any vector but 0; `size` and
 // `depth` are whole lengths. How the box is turned about its direction is unspecified.
 [[nodiscard]] PlaneArea make_plane_area(const DVec3& position, const DVec3& direction,
                                         const DVec2& size, double depth);

@@ -1,4 +1,4 @@
-// Cameras, in scene coordinates (metres, double).
+// Cameras, in scene coordinates (meters, double).
 #pragma once
 
 #include <optional>
@@ -22,7 +22,7 @@ struct OrthographicCamera {
   DVec3 position{0, 1, 5};
   DVec3 look_at{0, 0, 0};
   DVec3 up{0, 1, 0};
-  double height = 2;  // of the picture, metres, > 0
+  double height = 2;  // of the picture, meters, > 0
 };
 
 using Camera = std::variant<PerspectiveCamera, OrthographicCamera>;

@@ -34,7 +34,7 @@ struct AreaLight {
 // Radiance from everywhere around the scene.
 struct EnvironmentLight {
   Vec3 radiance{1};              // W/(m2 sr); multiplies the image, if there is one
-  TextureId image = no_texture;  // lat-long; its centre is direction -z, its top +y
+  TextureId image = no_texture;  // lat-long; its center is direction -z, its top +y
   DMat3 world_from_light{1.0};   // a rotation
 };
 

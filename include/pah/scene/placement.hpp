@@ -52,7 +52,7 @@ struct ScatterOptions {
 // One transform a copy. Throws std::invalid_argument on a count of 0 or values that are not finite.
 [[nodiscard]] std::vector<glm::dmat4x3> place(const Repeat& repeat);
 
-// Over the rectangle of `size` in the xz plane, centred on the origin.
+// Over the rectangle of `size` in the xz plane, centered on the origin.
 [[nodiscard]] std::vector<glm::dmat4x3> scatter(const DVec2& size, const ScatterOptions& options);
 
 // Over the surface of a mesh that stands at `world_from_object`, uniformly by area.

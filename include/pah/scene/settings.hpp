@@ -45,7 +45,7 @@ struct RenderSettings {
 // An influence area declared by hand; `light` names a light or "camera".
 struct PlaneAreaDeclaration {
   std::string light;
-  DVec3 position{0};  // centre of the face where rays start
+  DVec3 position{0};  // center of the face where rays start
   DVec3 direction{0, -1, 0};
   DVec2 size{1, 1};
   double depth = 1;

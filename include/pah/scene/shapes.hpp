@@ -1,4 +1,4 @@
-// Shapes made of formulas, as meshes. Each stands upright (y up) and is centred on the origin
+// Shapes made of formulas, as meshes. Each stands upright (y up) and is centered on the origin
 // unless said otherwise; winding is counterclockwise seen from outside, so geometric normals point
 // out. Closed shapes are watertight: vertices that meet at a seam or pole have equal positions to
 // the last bit.
@@ -12,7 +12,7 @@ namespace pah {
 
 // In the xz plane, normal +y: a floor needs no transform. u runs along +x, v along -z.
 struct RectangleShape {
-  DVec2 size{1, 1};  // along x and z, metres, > 0
+  DVec2 size{1, 1};  // along x and z, meters, > 0
 };
 
 // In the xz plane, normal +y.

@@ -13,7 +13,7 @@ using TextureId = std::uint32_t;
 inline constexpr TextureId no_texture = 0xFFFFFFFFU;
 
 enum class ColorSpace {
-  automatic,  // sRGB for 8- and 16-bit integer colour images, else linear
+  automatic,  // sRGB for 8- and 16-bit integer color images, else linear
   srgb,
   linear
 };
@@ -35,7 +35,7 @@ struct CheckerTexture {
 
 using Texture = std::variant<ImageTexture, CheckerTexture>;
 
-// A linear Rec. 709 colour: value times the texture, if there is one.
+// A linear Rec. 709 color: value times the texture, if there is one.
 struct ColorInput {
   Vec3 value{1};
   TextureId texture = no_texture;

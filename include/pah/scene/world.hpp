@@ -1,4 +1,4 @@
-// A scene made ready for rays: all triangles in one float array about the scene's centre.
+// A scene made ready for rays: all triangles in one float array about the scene's center.
 #pragma once
 
 #include <pah/geometry/triangles.hpp>

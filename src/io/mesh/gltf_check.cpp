@@ -263,7 +263,8 @@ class GltfCheck {
     for (std::size_t i = 0; i < nodes.size(); ++i)
       for (const Json& child : nodes[i].value("children", Json::array())) {
         if (!child.is_number_unsigned() || child.get<std::uint64_t>() >= nodes.size())
-          throw MeshFileError("node " + std::to_string(i) + " has a child that there is not");
+          throw MeshFileError("node " + std::to_string(i) +
+                              " has a child that is no node of the file");
         std::size_t& above = parent[child.get<std::size_t>()];
         if (above != nodes.size())
           throw MeshFileError("node " + child.dump() + " has more than one parent");

@@ -11,6 +11,7 @@
 #include <sstream>
 
 #include "geometry/normal.hpp"
+#include "io/extension.hpp"
 #include "io/mesh/access.hpp"
 #include "io/mesh/gltf.hpp"
 #include "io/mesh/materials.hpp"
@@ -24,13 +25,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr unsigned max_polygon_corners = 10'000;  // triangulation takes their square, or more
-
-std::string extension_of(const fs::path& file) {
-  std::string extension = file.extension().string();
-  for (char& c : extension)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  return extension;
-}
 
 // Leaves the importer of one format, whatever the file looks like inside.
 void keep_importer(Assimp::Importer& importer, const std::string& extension) {
@@ -69,14 +63,14 @@ class ImportedScene {
 
 ImportedScene::ImportedScene(const fs::path& file, const MeshFileOptions& options, bool strict) {
   std::error_code error;
-  const std::string extension = extension_of(file);
+  const std::string extension = lower_extension(file);
   const auto& known = mesh_extensions();
   if (std::find(known.begin(), known.end(), extension) == known.end()) {
     std::string available;
     for (const std::string& name : known) available += (available.empty() ? "" : ", ") + name;
     throw MeshFileError("unknown mesh format '" + extension + "'; available are " + available);
   }
-  if (!fs::is_regular_file(file, error)) throw MeshFileError("there is no such file");
+  if (!fs::is_regular_file(file, error)) throw MeshFileError("it does not exist, or is not a file");
   if (fs::file_size(file, error) > options.file_bytes)
     throw MeshFileError("the file is larger than " + std::to_string(options.file_bytes >> 20) +
                         " MB");
@@ -113,7 +107,7 @@ void ImportedScene::check(const MeshFileOptions& options) const {
       if (face.mNumIndices > 2) triangles += face.mNumIndices - 2;
     }
     if (mesh.mMaterialIndex >= scene_->mNumMaterials)
-      throw MeshFileError("a mesh uses a material that there is not");
+      throw MeshFileError("a mesh uses no material of the file");
   }
   if (triangles > options.triangles)
     throw MeshFileError("more than " + std::to_string(options.triangles) + " triangles");
@@ -242,7 +236,7 @@ std::vector<Placed> placed_meshes(const aiScene& scene) {
 
 // STL has normals of triangles only, which is to say none.
 bool wants_normals(const fs::path& file, const MeshFileOptions& options) {
-  return options.normals == MeshNormals::file && extension_of(file) != ".stl";
+  return options.normals == MeshNormals::file && lower_extension(file) != ".stl";
 }
 
 Mesh finished(MeshBuilder& builder, const MeshFileOptions& options) {

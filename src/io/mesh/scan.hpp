@@ -11,7 +11,7 @@ namespace pah {
 // corners. Throws MeshFileError.
 void scan_obj(const std::filesystem::path& file, std::uint64_t max_triangles);
 
-// A PLY file that is cut short, numbers that are not finite, vertices that there are not, and lists
+// A PLY file that is cut short, numbers that are not finite, vertices that do not exist, and lists
 // of more than 10,000 numbers. Throws MeshFileError.
 void scan_ply(const std::filesystem::path& file);
 

@@ -16,7 +16,7 @@ namespace pah {
 class ContentHash {
  public:
   void add(std::string_view bytes);
-  // With its length, so that neighbours do not run together.
+  // With its length, so that neighbors do not run together.
   void add_part(std::string_view bytes);
   [[nodiscard]] std::string hex() const;
 

@@ -55,7 +55,7 @@ struct SceneReading {
   NameTable materials{"material"};
   NameTable meshes{"mesh"};
   NameTable lights{"light"};
-  std::unordered_map<std::string, TextureId> images{};  // inline ones, by path and colour space
+  std::unordered_map<std::string, TextureId> images{};       // inline ones, by path and color space
   std::unordered_map<TextureId, TextureId> linear_copies{};  // of images used as numbers
   std::vector<std::size_t> first_instances{};  // by id in `meshes`; no_instance if it has none
   std::unordered_map<std::string, ImportedFile> imported{};  // mesh files, by path and options
@@ -78,7 +78,7 @@ void read_lights(SceneReading& reading, const YamlNode* node);
 void read_influence_areas(SceneReading& reading, const YamlNode* node);
 void read_acceleration(SceneReading& reading, const YamlNode* node);
 
-// A linear colour: [r, g, b], one number for all three, or "#rrggbb" in sRGB.
+// A linear color: [r, g, b], one number for all three, or "#rrggbb" in sRGB.
 bool read_color(ReadContext& context, const YamlNode& node, const ValueName& name, Vec3& value,
                 const Range& range = not_negative);
 // Values, or {texture: name} or {image: file}, scaled; `range` is that of value and scale.
@@ -86,7 +86,7 @@ void read_input(SceneReading& reading, MapReader& map, std::string_view key, Col
                 const Range& range);
 void read_input(SceneReading& reading, MapReader& map, std::string_view key, ScalarInput& input,
                 const Range& range);
-// {texture: name} or {image: file}, taken as numbers and not as colours.
+// {texture: name} or {image: file}, taken as numbers and not as colors.
 void read_normal_map(SceneReading& reading, MapReader& map, std::string_view key,
                      TextureId& texture);
 // The texture for an image file that something names directly.
@@ -114,7 +114,7 @@ void read_geometry(SceneReading& reading, MapReader& map, const GeometryUse& use
 
 // The material that `key` names.
 [[nodiscard]] std::optional<MaterialId> read_material_name(SceneReading& reading, MapReader& map);
-// A grey diffuse material that the scene does not name, made when first needed.
+// A gray diffuse material that the scene does not name, made when first needed.
 [[nodiscard]] MaterialId unnamed_material(SceneReading& reading, int percent);
 
 // Reports an image that cannot be read or is too large.

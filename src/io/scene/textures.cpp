@@ -147,8 +147,7 @@ bool read_color(ReadContext& context, const YamlNode& node, const ValueName& nam
   }
   if (node.kind == Kind::scalar && parse_hex_color(node.text, value)) return true;
   if (node.kind != Kind::scalar || !is_number(node)) {
-    context.errors.add(node.mark, name +
-                                      " must be a colour ([r, g, b], a number or \"#rrggbb\"), " +
+    context.errors.add(node.mark, name + " must be a color ([r, g, b], a number or \"#rrggbb\"), " +
                                       "not " + describe(node));
     return false;
   }

@@ -7,7 +7,7 @@
 
 namespace pah {
 
-// Insertions, deletions, substitutions and swaps of neighbours that turn `a` into `b`: the
+// Insertions, deletions, substitutions and swaps of neighbors that turn `a` into `b`: the
 // restricted Damerau-Levenshtein distance.
 [[nodiscard]] int edit_distance(std::string_view a, std::string_view b);
 

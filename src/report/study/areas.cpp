@@ -26,7 +26,7 @@ const char* name_of(StudyGroup group) {
 std::vector<StudyArea> study_areas(const Aabb& bounds, bool quick) {
   const DVec3 center = 0.5 * DVec3(bounds.min) + 0.5 * DVec3(bounds.max);
   const double radius = 0.5 * glm::length(DVec3(bounds.max) - DVec3(bounds.min));
-  const double width = radius;  // of a cross-section at the mesh's centre
+  const double width = radius;  // of a cross-section at the mesh's center
 
   const auto off_axis = [](double degrees) {
     const double angle = degrees * std::numbers::pi / 180;
@@ -39,7 +39,7 @@ std::vector<StudyArea> study_areas(const Aabb& bounds, bool quick) {
                      make_plane_area(center - radius * glm::normalize(direction), direction,
                                      DVec2(width), 2 * radius)});
   };
-  // `distance` of the eye from the centre, in radii.
+  // `distance` of the eye from the center, in radii.
   const auto add_point = [&](const char* name, double distance, const DVec3& direction) {
     const double fov = 2 * std::atan2(0.5 * width, distance * radius);
     areas.push_back({name, StudyGroup::point_outside,

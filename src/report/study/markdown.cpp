@@ -121,7 +121,7 @@ std::string costs(const StudyResults& results) {
   text += relative_table(results, sah_best, &CostRow::closest);
   text +=
       "Every node that rays meet within the region, whatever they hit, relative to SAH + longest\n"
-      "axis. This is what heuristics minimise, and what rays cost that hit nothing:\n\n";
+      "axis. This is what heuristics minimize, and what rays cost that hit nothing:\n\n";
   text += relative_table(results, sah_longest, &CostRow::all);
   text +=
       "Nearest hits as the renderer's own kernels count them, in nodes that are eight children\n"
