@@ -102,7 +102,7 @@ ExitCode run_inspect(const InspectArguments& arguments) {
        .build_seconds = global.seconds});
 
   for (const SceneArea& area : areas_of(world, scene.influence_areas, scene.film))
-    if (plan({area.area, area.bundle, area.declared}).build)
+    if (plan(local_area(area)).build)
       report.bvhs.push_back(
           report_local(world, area, local_config(scene.acceleration), global.built.tree));
 

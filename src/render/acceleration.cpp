@@ -3,6 +3,7 @@
 #include <iterator>
 #include <pah/render/acceleration.hpp>
 #include <stdexcept>
+#include <string>
 
 namespace pah {
 namespace {
@@ -15,11 +16,11 @@ constexpr std::array<AcceleratorName, 3> names{{
 constexpr std::string_view bvh = names[0].name;
 constexpr std::string_view local = names[1].name;
 
-LocalArea local_area(const SceneArea& area) { return {area.area, area.bundle, area.declared}; }
-
 }  // namespace
 
 std::span<const AcceleratorName> accelerator_names() { return names; }
+
+LocalArea local_area(const SceneArea& area) { return {area.area, area.bundle, area.declared}; }
 
 LocalConfig local_config(const AccelerationSettings& settings) {
   LocalConfig config;

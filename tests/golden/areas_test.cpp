@@ -1,7 +1,6 @@
 // Influence areas declared by hand, well or badly, never change a pixel.
-#include <pah/accel/local_bvhs.hpp>
+#include <pah/render/acceleration.hpp>
 #include <pah/render/render.hpp>
-#include <pah/scene/areas.hpp>
 
 #include "catch.hpp"
 #include "reference.hpp"
@@ -46,7 +45,7 @@ std::vector<LocalArea> many_areas(const Scene& scene, const World& world) {
   }
   std::vector<LocalArea> areas;
   for (const SceneArea& area : areas_of(world, settings, scene.film))
-    areas.push_back({area.area, area.bundle});
+    areas.push_back(local_area(area));
   return areas;
 }
 

@@ -6,7 +6,7 @@
 #include <pah/scene/areas.hpp>
 #include <pah/scene/scene.hpp>
 #include <span>
-#include <string>
+#include <string_view>
 #include <vector>
 
 namespace pah {
@@ -34,6 +34,9 @@ struct Acceleration {
 // std::invalid_argument for another name, and as areas_of does.
 [[nodiscard]] Acceleration make_acceleration(const World& world, const Scene& settings,
                                              std::string_view name = {});
+
+// A scene's area as accelerators take it.
+[[nodiscard]] LocalArea local_area(const SceneArea& area);
 
 // How acceleration settings have local BVHs built.
 [[nodiscard]] LocalConfig local_config(const AccelerationSettings& settings);
