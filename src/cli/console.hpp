@@ -2,10 +2,14 @@
 #pragma once
 
 #include <cstdint>
+#include <pah/io/errors.hpp>
 #include <pah/render/render.hpp>
 #include <string>
+#include <vector>
 
 namespace pah::cli {
+
+void print_warnings(const std::vector<LocatedError>& warnings);
 
 // "4.2 s", "3:07", "2:03:07".
 [[nodiscard]] std::string format_duration(double seconds);

@@ -9,6 +9,7 @@
 #include <pah/scene/world.hpp>
 
 #include "accel/build_local.hpp"
+#include "cli/console.hpp"
 #include "cli/film_size.hpp"
 #include "cli/interrupt.hpp"
 #include "io/output_file.hpp"
@@ -78,6 +79,7 @@ ExitCode run_inspect(const InspectArguments& arguments) {
   handle_interrupts();
   check_outputs(arguments);
   LoadedScene loaded = load_scene(arguments.scene, {arguments.overrides, {}});
+  print_warnings(loaded.warnings);
   Scene& scene = loaded.scene;
   apply(arguments, scene.film);
   const World world = make_world(scene);

@@ -139,6 +139,7 @@ ExitCode run_render(const RenderArguments& arguments) {
                                         static_cast<std::size_t>(threads));
   LoadedScene loaded = load_scene(arguments.scene, {arguments.overrides, {}});
   Scene& scene = loaded.scene;
+  if (!arguments.quiet) print_warnings(loaded.warnings);
   apply(arguments, scene);
   if (arguments.check) {
     if (!arguments.quiet) fmt::print(stderr, "{}: no errors\n", arguments.scene.string());

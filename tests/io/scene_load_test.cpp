@@ -200,6 +200,22 @@ TEST_CASE("copies") {
   CHECK(over.scene.meshes.size() == 2);
 }
 
+TEST_CASE("a mesh file without a material is gray, whatever materials the scene has") {
+  const TemporaryFolder folder;
+  write_text(folder / "a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  for (const char* text :
+       {"meshes: [{file: a.obj}]", "materials: {m: {type: mirror}}\nmeshes: [{file: a.obj}]",
+        "meshes: [{file: a.obj, use: [materials]}]"}) {
+    CAPTURE(text);
+    const Scene scene = load_scene(write_text(folder / "scene.yaml", text)).scene;
+    REQUIRE(scene.instances.size() == 1);
+    REQUIRE(scene.instances[0].material < scene.materials.size());
+    const auto& model = scene.materials[scene.instances[0].material].model;
+    REQUIRE(std::holds_alternative<DiffuseMaterial>(model));
+    CHECK(std::get<DiffuseMaterial>(model).reflectance.value == Vec3(0.8F));
+  }
+}
+
 TEST_CASE("textures stand for colors and numbers") {
   const TemporaryFolder folder;
   write_text(folder / "picture.ppm", "P3\n2 2\n255\n1 2 3 4 5 6 7 8 9 10 11 12\n");

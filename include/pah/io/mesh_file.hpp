@@ -1,4 +1,4 @@
-// Mesh files, by assimp: OBJ, PLY, STL and glTF 2.0 (.gltf, .glb).
+// Mesh files: OBJ, PLY, STL and glTF 2.0 (.gltf, .glb).
 #pragma once
 
 #include <filesystem>
@@ -23,6 +23,8 @@ struct MeshFileOptions {
   // Files that the mesh file names (buffers, images, .mtl) must lie in or under this folder; empty
   // for the mesh file's own. Links may lead out of it.
   std::filesystem::path folder;
+  // Everything as one mesh, the transforms of nodes applied, without materials, cameras and lights.
+  bool merged = false;
 };
 
 // What is wrong with a mesh file. Line and column of an OBJ or ASCII PLY or STL file count from 1;
@@ -64,18 +66,19 @@ struct MeshFile {
   // Point, spot and directional lights of glTF, whose units are photometric: 683 lm/W turn them
   // into watts. Area lights of emissive materials are not among them.
   std::vector<Light> lights;
-  std::vector<Vec3> emission;  // per material: radiance that it emits, W/(m2 sr), or black
+  std::vector<Vec3> emission;         // per material: radiance that it emits, W/(m2 sr), or black
+  std::vector<std::string> warnings;  // what was left out, one sentence each
 };
 
 // Extensions that can be read, with dots, lower case.
 [[nodiscard]] const std::vector<std::string>& mesh_extensions();
 
-// Everything in the file as one mesh, the transforms of its nodes applied. Throws MeshFileError.
-[[nodiscard]] Mesh read_mesh(const std::filesystem::path& file,
-                             const MeshFileOptions& options = {});
-
-// The file with its materials, textures, cameras and lights. Throws MeshFileError.
+// The file with its materials, textures, cameras and lights, unless `options.merged`. Throws
+// MeshFileError.
 [[nodiscard]] MeshFile read_mesh_file(const std::filesystem::path& file,
                                       const MeshFileOptions& options = {});
+
+// Everything in the file as one mesh. Throws MeshFileError.
+[[nodiscard]] Mesh read_mesh(const std::filesystem::path& file, MeshFileOptions options = {});
 
 }  // namespace pah

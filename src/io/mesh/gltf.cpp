@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "io/mesh/gltf_check.hpp"
+#include "io/mesh/little_endian.hpp"
 
 namespace pah {
 namespace {
@@ -26,15 +27,15 @@ struct Container {
 Container open_container(std::string_view bytes) {
   const auto cut = [] { throw MeshFileError("the file is cut short, or not binary glTF"); };
   if (bytes.size() < 20 || bytes.substr(0, 4) != "glTF") cut();
-  if (read_u32(bytes, 4) != 2) throw MeshFileError("only version 2 of glTF can be read");
-  if (read_u32(bytes, 8) > bytes.size()) cut();
+  if (load_u32(bytes.data() + 4) != 2) throw MeshFileError("only version 2 of glTF can be read");
+  if (load_u32(bytes.data() + 8) > bytes.size()) cut();
   Container container;
-  const std::uint32_t json_size = read_u32(bytes, 12);
-  if (read_u32(bytes, 16) != json_chunk || json_size > bytes.size() - 20) cut();
+  const std::uint32_t json_size = load_u32(bytes.data() + 12);
+  if (load_u32(bytes.data() + 16) != json_chunk || json_size > bytes.size() - 20) cut();
   container.json = bytes.substr(20, json_size);
   const std::size_t next = 20 + std::size_t{json_size};
-  if (next + 8 <= bytes.size() && read_u32(bytes, next + 4) == binary_chunk) {
-    const std::uint32_t size = read_u32(bytes, next);
+  if (next + 8 <= bytes.size() && load_u32(bytes.data() + next + 4) == binary_chunk) {
+    const std::uint32_t size = load_u32(bytes.data() + next);
     if (size > bytes.size() - next - 8) cut();
     container.binary = bytes.substr(next + 8, size);
   }

@@ -7,8 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "io/mesh/access.hpp"
+#include "io/mesh/folder.hpp"
 #include "io/mesh/gltf.hpp"
+#include "io/mesh/little_endian.hpp"
 
 namespace pah {
 namespace {
@@ -249,7 +250,7 @@ class GltfCheck {
       };
       const std::uint32_t vertex = type == 5121   ? byte(0)
                                    : type == 5123 ? byte(0) | byte(1) << 8U
-                                                  : read_u32(accessor.bytes, at);
+                                                  : load_u32(accessor.bytes.data() + at);
       if (vertex >= count)
         throw MeshFileError("index " + std::to_string(i) + " of a mesh names vertex " +
                             std::to_string(vertex) + " of " + std::to_string(count));
@@ -292,12 +293,6 @@ class GltfCheck {
 };
 
 }  // namespace
-
-std::uint32_t read_u32(std::string_view bytes, std::size_t at) {
-  std::uint32_t value = 0;
-  for (std::size_t i = 4; i-- > 0;) value = value << 8U | static_cast<unsigned char>(bytes[at + i]);
-  return value;
-}
 
 std::string read_bytes(const fs::path& file, std::uint64_t max_bytes) {
   std::error_code error;

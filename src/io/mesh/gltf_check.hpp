@@ -17,7 +17,4 @@ void check_gltf(const nlohmann::json& json, std::string_view binary,
 // The file at once. Throws MeshFileError.
 [[nodiscard]] std::string read_bytes(const std::filesystem::path& file, std::uint64_t max_bytes);
 
-// Little-endian.
-[[nodiscard]] std::uint32_t read_u32(std::string_view bytes, std::size_t at);
-
 }  // namespace pah

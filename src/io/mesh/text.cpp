@@ -1,10 +1,77 @@
 #include "io/mesh/text.hpp"
 
-#include <algorithm>
+#include <bit>
 #include <charconv>
 #include <cmath>
+#include <cstdint>
+#include <limits>
 
 namespace pah {
+namespace {
+
+// Those that a double holds exactly.
+constexpr double powers_of_ten[] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
+                                    1e8,  1e9,  1e10, 1e11, 1e12, 1e13, 1e14, 1e15,
+                                    1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
+constexpr int largest_power = 22;
+constexpr int most_digits = 19;  // that 64 bits hold
+
+// digits * 10^exponent, without the sign.
+struct Decimal {
+  std::uint64_t digits = 0;
+  int count = 0;  // of digits behind leading zeros; above most_digits, `digits` has wrapped
+  int exponent = 0;
+};
+
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+
+// Reads [+|-]digits[.digits][(e|E)[+|-]digits], with digits on either side of the point.
+bool read_decimal(const char* at, const char* end, Decimal& number) {
+  bool any = false;
+  const auto take = [&] {
+    any = true;
+    number.digits = 10 * number.digits + static_cast<std::uint64_t>(*at++ - '0');
+    number.count += number.count > 0 || number.digits > 0 ? 1 : 0;
+  };
+  while (at < end && is_digit(*at)) take();
+  if (at < end && *at == '.') {
+    ++at;
+    while (at < end && is_digit(*at)) {
+      take();
+      --number.exponent;
+    }
+  }
+  if (!any) return false;
+  if (at < end && (*at == 'e' || *at == 'E')) {
+    ++at;
+    const bool negative = at < end && *at == '-';
+    if (at < end && (*at == '-' || *at == '+')) ++at;
+    if (at == end) return false;
+    int exponent = 0;
+    for (; at < end && is_digit(*at); ++at)
+      if (exponent < 100'000'000) exponent = 10 * exponent + (*at - '0');
+    number.exponent += negative ? -exponent : exponent;
+  }
+  return at == end;
+}
+
+// Correctly rounded twice is correctly rounded once, unless the double lies half-way between two
+// floats (Clinger, "How to Read Floating Point Numbers Accurately", PLDI 1990, for the double).
+bool round_fast(const Decimal& number, float& value) {
+  const int power = std::abs(number.exponent);
+  if (number.count > most_digits || number.digits > 1ULL << 53 || power > largest_power)
+    return false;
+  const auto digits = static_cast<double>(number.digits);
+  const double exact =
+      number.exponent < 0 ? digits / powers_of_ten[power] : digits * powers_of_ten[power];
+  constexpr std::uint64_t dropped = (1ULL << 29) - 1;  // bits of a double that a float has not
+  const bool half_way = (std::bit_cast<std::uint64_t>(exact) & dropped) == 1ULL << 28;
+  if (half_way || (exact < std::numeric_limits<float>::min() && exact != 0)) return false;
+  value = static_cast<float>(exact);
+  return true;
+}
+
+}  // namespace
 
 std::string excerpt_of(std::string_view line) {
   std::string text(line.substr(0, 120));
@@ -13,7 +80,9 @@ std::string excerpt_of(std::string_view line) {
   return text;
 }
 
-bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
+std::string_view without_byte_order_mark(std::string_view line) {
+  return line.substr(0, 3) == "\xEF\xBB\xBF" ? line.substr(3) : line;
+}
 
 std::string_view Words::next() {
   while (at_ < line_.size() && is_blank(line_[at_])) ++at_;
@@ -22,30 +91,32 @@ std::string_view Words::next() {
   return line_.substr(begin, at_ - begin);
 }
 
+std::string_view Words::rest() const {
+  std::string_view rest = line_.substr(at_);
+  while (!rest.empty() && is_blank(rest.front())) rest.remove_prefix(1);
+  while (!rest.empty() && is_blank(rest.back())) rest.remove_suffix(1);
+  return rest;
+}
+
 int Words::column_of(std::string_view word) const {
   return static_cast<int>(word.data() - line_.data()) + 1;
 }
 
-bool is_finite_number(std::string_view word) {
-  if (!word.empty() && word.front() == '+') word.remove_prefix(1);
-  if (word.empty()) return false;
-  // Digits that are few need no parsing.
-  const bool plain = word.size() < 30 && std::all_of(word.begin(), word.end(), [](char c) {
-                       return (c >= '0' && c <= '9') || c == '.' || c == '-';
-                     });
-  const bool starts_well = word.front() != '-' || word.size() > 1;
-  if (plain && starts_well && word.find('-', 1) == std::string_view::npos &&
-      word.find('.') == word.rfind('.') && word != "." && word != "-.")
-    return true;
-  double value = 0;
-  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-  if (end != word.data() + word.size()) return false;
-  if (error == std::errc::result_out_of_range) {
-    // Too small is as good as 0; too large is not.
-    const std::size_t e = word.find_first_of("eE");
-    return e != std::string_view::npos && e + 1 < word.size() && word[e + 1] == '-';
+bool read_float(std::string_view word, float& value) {
+  const bool negative = !word.empty() && word.front() == '-';
+  if (negative || (!word.empty() && word.front() == '+')) word.remove_prefix(1);
+  const char* const end = word.data() + word.size();
+  Decimal number;
+  if (!read_decimal(word.data(), end, number)) return false;
+  if (!round_fast(number, value)) {
+    const std::errc error = std::from_chars(word.data(), end, value).ec;
+    if (error == std::errc::result_out_of_range) {
+      if (number.count + number.exponent > 0) return false;
+      value = 0;
+    }
   }
-  return error == std::errc{} && std::abs(value) <= 3.4028234e38;
+  if (negative) value = -value;
+  return std::isfinite(value);
 }
 
 }  // namespace pah

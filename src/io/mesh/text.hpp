@@ -1,7 +1,6 @@
-// Words, numbers and lines of mesh files that are text.
+// Words and numbers of mesh files that are text.
 #pragma once
 
-#include <filesystem>
 #include <string>
 #include <string_view>
 
@@ -14,6 +13,8 @@ class Words {
 
   // The next word; empty at the end of the line.
   std::string_view next();
+  // All that is left, without blanks around it.
+  [[nodiscard]] std::string_view rest() const;
   // From 1. The end of the line for an empty word.
   [[nodiscard]] int column_of(std::string_view word) const;
 
@@ -22,12 +23,16 @@ class Words {
   std::size_t at_ = 0;
 };
 
-[[nodiscard]] bool is_blank(char c);
+[[nodiscard]] inline bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
 
-// Whether the word is a number that a float can hold.
-[[nodiscard]] bool is_finite_number(std::string_view word);
+// Whether the word is a decimal number that a float can hold, and the float nearest to it. What is
+// too small for one is 0.
+[[nodiscard]] bool read_float(std::string_view word, float& value);
 
 // The line for an error message: not too long, and without control characters.
 [[nodiscard]] std::string excerpt_of(std::string_view line);
+
+// A byte-order mark may stand before the first line of a text.
+[[nodiscard]] std::string_view without_byte_order_mark(std::string_view line);
 
 }  // namespace pah

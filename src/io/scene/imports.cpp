@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <type_traits>
 
-#include "io/mesh/access.hpp"
+#include "io/mesh/folder.hpp"
 
 namespace pah {
 namespace {
@@ -132,19 +132,16 @@ const ImportedFile* import_file(SceneReading& reading, const YamlNode& node, con
 
   MeshFileOptions options;
   options.normals = normals;
+  options.merged = !whole;
   options.file_bytes = reading.limits.mesh_file_bytes;
   options.triangles =
       reading.limits.triangles - std::min(reading.triangles, reading.limits.triangles);
   // A mesh of the scene's own may share what lies anywhere in the scene.
   if (lies_in(*path, reading.files.folder())) options.folder = reading.files.folder();
   try {
-    MeshFile file;
-    if (whole) {
-      file = read_mesh_file(*path, options);
-    } else {
-      file.meshes.push_back(read_mesh(*path, options));
-      file.parts.emplace_back();
-    }
+    MeshFile file = read_mesh_file(*path, options);
+    for (const std::string& warning : file.warnings)
+      reading.context.errors.warn(node.mark, "mesh file '" + node.text + "': " + warning);
     return &reading.imported.emplace(key, add_file(reading, std::move(file), node.mark))
                 .first->second;
   } catch (const MeshFileError& error) {

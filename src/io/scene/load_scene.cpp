@@ -160,6 +160,7 @@ LoadedScene load_scene(const fs::path& file, const LoadOptions& options) {
   }
   if (errors.size() > 0) throw SceneError(errors.located());
   loaded.hash = files.hash().hex();
+  loaded.warnings = errors.located_warnings();
   return loaded;
 }
 

@@ -67,7 +67,7 @@ void read_shape_geometry(SceneReading& reading, MapReader& map, const YamlNode& 
   reading.scene.meshes.back().name = use.name;
   Instance instance;
   instance.mesh = static_cast<MeshId>(reading.scene.meshes.size() - 1);
-  instance.material = use.material.value_or(0);
+  instance.material = use.material ? *use.material : unnamed_material(reading, 80);
   instance.light = use.light;
   add_instances(reading, map, instance, copies);
 }
@@ -105,7 +105,9 @@ void read_file_geometry(SceneReading& reading, MapReader& map, const YamlNode& n
     const MeshFilePart& part = file->parts[i];
     Instance instance;
     instance.mesh = part.mesh;
-    instance.material = file_use.materials ? part.material : use.material.value_or(0);
+    instance.material = file_use.materials ? part.material
+                        : use.material     ? *use.material
+                                           : unnamed_material(reading, 80);
     instance.light = use.light != no_light ? use.light : lights[i];
     Transforms placed = copies;
     for (auto& copy : placed) copy = compose(copy, part.world_from_object);
@@ -139,12 +141,10 @@ void read_geometry(SceneReading& reading, MapReader& map, const GeometryUse& use
     map.ignore_other_keys();
     return;
   }
-  GeometryUse known = use;
-  if (!known.material && file == nullptr) known.material = unnamed_material(reading, 80);
   if (shape != nullptr)
-    read_shape_geometry(reading, map, *shape, known, copies);
+    read_shape_geometry(reading, map, *shape, use, copies);
   else
-    read_file_geometry(reading, map, *file, known, copies);
+    read_file_geometry(reading, map, *file, use, copies);
 }
 
 std::optional<MaterialId> read_material_name(SceneReading& reading, MapReader& map) {

@@ -37,9 +37,9 @@ LocatedError ErrorCollector::locate(const YamlFault& error, std::string_view lin
           characters(line.substr(first, at - first)) + 1};
 }
 
-std::vector<LocatedError> ErrorCollector::located() const {
+std::vector<LocatedError> ErrorCollector::located(std::vector<YamlFault> sorted,
+                                                  const char* noun) const {
   // Those of the file first, then those of the overrides in their order.
-  std::vector<YamlFault> sorted = errors_;
   const auto key = [](const YamlFault& e) {
     return std::tie(e.mark.override_index, e.mark.line, e.mark.column);
   };
@@ -67,7 +67,7 @@ std::vector<LocatedError> ErrorCollector::located() const {
   if (sorted.size() > most_errors) {
     LocatedError& rest = result.emplace_back();
     rest.where.file = file_;
-    rest.message = "and " + std::to_string(sorted.size() - most_errors) + " more errors";
+    rest.message = "and " + std::to_string(sorted.size() - most_errors) + " more " + noun;
   }
   return result;
 }

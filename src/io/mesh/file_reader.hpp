@@ -1,0 +1,54 @@
+// A file from its beginning to its end, a block at a time: lines of text, bytes, or one after the
+// other.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+namespace pah {
+
+class FileReader {
+ public:
+  // Throws MeshFileError if the file cannot be read or has more than `max_bytes`.
+  FileReader(const std::filesystem::path& file, std::uint64_t max_bytes);
+
+  // The next line without its end, which is "\n" or "\r\n", or "\r" if the first line ends so;
+  // nothing at the end of the file. Valid until the next call. Throws MeshFileError if it is longer
+  // than any that makes sense.
+  [[nodiscard]] std::optional<std::string_view> line();
+  // That of the line read last, from 1.
+  [[nodiscard]] int line_number() const { return line_number_; }
+
+  // The next `count` bytes, valid until the next call; null if fewer are left.
+  [[nodiscard]] const char* bytes(std::size_t count) {
+    if (end_ - at_ < count && !fill(count)) return nullptr;
+    const char* const begin = buffer_.data() + at_;
+    at_ += count;
+    return begin;
+  }
+
+  [[nodiscard]] std::uint64_t size() const { return size_; }
+  // Bytes that have not been read yet.
+  [[nodiscard]] std::uint64_t left() const { return unread_ + (end_ - at_); }
+
+ private:
+  // Reads on until `count` bytes are there; false if the file ends before.
+  bool fill(std::size_t count);
+  void find_line_end();
+
+  std::ifstream stream_;
+  std::uint64_t size_ = 0;
+  std::uint64_t unread_ = 0;  // bytes that are not in the buffer yet
+  std::vector<char> buffer_;
+  std::size_t at_ = 0;   // of what comes next, in the buffer
+  std::size_t end_ = 0;  // of what the buffer holds
+  int line_number_ = 0;
+  char line_end_ = '\n';
+};
+
+}  // namespace pah

@@ -1,0 +1,177 @@
+#include "io/mesh/polygon_mesh.hpp"
+
+#include <algorithm>
+#include <optional>
+#include <span>
+
+#include "geometry/normal.hpp"
+#include "io/mesh/polygon.hpp"
+#include "io/mesh/weld.hpp"
+
+namespace pah {
+namespace {
+
+using Run = PolygonMesh::Run;
+
+// A run with where it ends and where its corners begin.
+struct Faces {
+  std::uint32_t material;
+  std::size_t first;
+  std::size_t last;  // behind them
+  std::size_t first_corner;
+};
+
+// Those of one material one after the other, in the order of the file.
+std::vector<Faces> faces_by_material(const PolygonMesh& polygons, bool merged) {
+  const std::size_t count = polygons.face_sizes.size();
+  std::vector<Run> runs = polygons.runs;
+  if (merged || runs.empty() || runs.front().first_face > 0) runs.insert(runs.begin(), {0, 0});
+  if (merged) runs.resize(1);
+  std::vector<Faces> result;
+  std::size_t corner = 0;
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    const std::size_t last = i + 1 < runs.size() ? runs[i + 1].first_face : count;
+    result.push_back({runs[i].material, runs[i].first_face, last, corner});
+    for (std::size_t face = runs[i].first_face; face < last; ++face)
+      corner += polygons.face_sizes[face];
+  }
+  std::stable_sort(result.begin(), result.end(),
+                   [](const Faces& a, const Faces& b) { return a.material < b.material; });
+  return result;
+}
+
+// Makes the mesh of one material after the other.
+class TriangleMaker {
+ public:
+  TriangleMaker(const PolygonMesh& polygons, const MeshFileOptions& options)
+      : polygons_(polygons), options_(options) {
+    made_.resize(polygons.vertices.empty() ? polygons.positions.size() : polygons.vertices.size(),
+                 {no_index, no_index});
+  }
+
+  void begin(std::uint32_t material, std::span<const Faces> runs) {
+    material_ = material;
+    std::size_t faces = 0;
+    bool normals = false;
+    bool uvs = false;
+    for (const Faces& run : runs) {
+      faces += run.last - run.first;
+      std::size_t corner = run.first_corner;
+      for (std::size_t face = run.first; face < run.last && !(normals && uvs); ++face)
+        for (unsigned k = 0; k < polygons_.face_sizes[face]; ++k, ++corner) {
+          const PolygonVertex vertex = vertex_of(polygons_.corners[corner]);
+          normals |= vertex.normal != no_index;
+          uvs |= vertex.uv != no_index;
+        }
+    }
+    has_normals_ = normals && options_.normals == MeshNormals::file;
+    builder_.emplace(has_normals_, uvs, faces);
+  }
+
+  void add(const Faces& run) {
+    const std::uint32_t* corners = polygons_.corners.data() + run.first_corner;
+    for (std::size_t face = run.first; face < run.last; ++face) {
+      const std::size_t size = polygons_.face_sizes[face];
+      if (size == 3) {
+        add(corners, {0, 1, 2});
+      } else {
+        points_.clear();
+        for (std::size_t k = 0; k < size; ++k) points_.push_back(position_of(corners[k]));
+        triangulate(points_, triangles_);
+        for (const UVec3& t : triangles_) add(corners, t);
+      }
+      corners += size;
+    }
+  }
+
+  [[nodiscard]] Mesh take() { return builder_->take(); }
+
+ private:
+  // A vertex of the mesh at hand, by that of the file.
+  struct Made {
+    std::uint32_t material;
+    std::uint32_t vertex;
+  };
+
+  [[nodiscard]] PolygonVertex vertex_of(std::uint32_t corner) const {
+    if (!polygons_.vertices.empty()) return polygons_.vertices[corner];
+    return {corner, polygons_.uvs.empty() ? no_index : corner,
+            polygons_.normals.empty() ? no_index : corner};
+  }
+
+  [[nodiscard]] const Vec3& position_of(std::uint32_t corner) const {
+    return polygons_.positions[vertex_of(corner).position];
+  }
+
+  void add(const std::uint32_t* corners, const UVec3& t) {
+    builder_->add_triangle({made(corners, t, 0), made(corners, t, 1), made(corners, t, 2)});
+  }
+
+  // The vertex for corner `k` of the triangle.
+  std::uint32_t made(const std::uint32_t* corners, const UVec3& t, int k) {
+    Made& known = made_[corners[t[k]]];
+    if (known.material == material_) return known.vertex;
+    const PolygonVertex vertex = vertex_of(corners[t[k]]);
+    Vec3 normal(0);
+    const bool flat = has_normals_ && !unit_normal(vertex, normal);
+    if (flat) normal = flat_normal(corners, t);
+    const Vec2 uv = vertex.uv == no_index ? Vec2(0) : polygons_.uvs[vertex.uv];
+    const std::uint32_t result =
+        builder_->add_vertex(polygons_.positions[vertex.position], normal, uv);
+    // A normal of this triangle is not the vertex's elsewhere.
+    if (!flat) known = {material_, result};
+    return result;
+  }
+
+  // False if the file gives none, or one of no length.
+  [[nodiscard]] bool unit_normal(const PolygonVertex& vertex, Vec3& normal) const {
+    if (vertex.normal == no_index) return false;
+    const DVec3 given(polygons_.normals[vertex.normal]);
+    const double length = glm::length(given);
+    if (!(length > 0)) return false;
+    normal = Vec3(given / length);
+    return true;
+  }
+
+  [[nodiscard]] Vec3 flat_normal(const std::uint32_t* corners, const UVec3& t) const {
+    const DVec3 flat = scaled_normal(
+        {position_of(corners[t.x]), position_of(corners[t.y]), position_of(corners[t.z])});
+    const double length = glm::length(flat);
+    return length > 0 ? Vec3(flat / length) : Vec3(0, 1, 0);
+  }
+
+  const PolygonMesh& polygons_;
+  const MeshFileOptions& options_;
+  std::vector<Made> made_;
+  std::uint32_t material_ = 0;
+  bool has_normals_ = false;
+  std::optional<MeshBuilder> builder_;
+  std::vector<Vec3> points_;      // of the face at hand
+  std::vector<UVec3> triangles_;  // of their numbers
+};
+
+}  // namespace
+
+void make_meshes(const PolygonMesh& polygons, const MeshFileOptions& options, MeshFile& out) {
+  std::uint64_t triangles = 0;
+  for (const std::uint16_t size : polygons.face_sizes) triangles += size - 2U;
+  if (triangles > options.triangles)
+    throw MeshFileError("more than " + std::to_string(options.triangles) + " triangles");
+  const std::vector<Faces> runs = faces_by_material(polygons, options.merged);
+  TriangleMaker maker(polygons, options);
+  for (std::size_t i = 0; i < runs.size();) {
+    std::size_t next = i;
+    std::size_t faces = 0;
+    for (; next < runs.size() && runs[next].material == runs[i].material; ++next)
+      faces += runs[next].last - runs[next].first;
+    if (faces > 0) {
+      maker.begin(runs[i].material, {runs.data() + i, next - i});
+      for (std::size_t r = i; r < next; ++r) maker.add(runs[r]);
+      out.parts.push_back({static_cast<MeshId>(out.meshes.size()), runs[i].material});
+      out.meshes.push_back(maker.take());
+    }
+    i = next;
+  }
+}
+
+}  // namespace pah

@@ -1,0 +1,42 @@
+// Polygons as OBJ, PLY and STL files have them, on their way to meshes of triangles.
+#pragma once
+
+#include <cstdint>
+#include <pah/io/mesh_file.hpp>
+#include <vector>
+
+namespace pah {
+
+inline constexpr std::uint32_t no_index = 0xFFFFFFFF;
+inline constexpr std::size_t max_polygon_corners = 10'000;  // triangulation may take their square
+
+// Numbers of a position, a texture coordinate and a normal; of the latter no_index for none.
+struct PolygonVertex {
+  std::uint32_t position;
+  std::uint32_t uv;
+  std::uint32_t normal;
+};
+
+struct PolygonMesh {
+  std::vector<Vec3> positions;  // finite, as are the others
+  std::vector<Vec2> uvs;
+  std::vector<Vec3> normals;  // of any length
+  // If there are none, vertex i has position, texture coordinate and normal i, and of those there
+  // are as many as positions, or none.
+  std::vector<PolygonVertex> vertices;
+  std::vector<std::uint32_t> corners;     // vertices of all faces, one face after the other
+  std::vector<std::uint16_t> face_sizes;  // in corners: 3 to max_polygon_corners
+
+  // Faces from `first_face` on, to the next run, are of `material`. None: all are of material 0.
+  struct Run {
+    std::size_t first_face;
+    std::uint32_t material;
+  };
+  std::vector<Run> runs;
+};
+
+// Triangles, with normals if `options` asks for the file's, as one mesh for each material that has
+// faces and a part for each mesh; as one of material 0 with `options.merged`.
+void make_meshes(const PolygonMesh& polygons, const MeshFileOptions& options, MeshFile& out);
+
+}  // namespace pah
