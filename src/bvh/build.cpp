@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <limits>
 #include <numeric>
+#include <stdexcept>
 
 #include "parallel/parallel_for.hpp"
 #include "parallel/task_group.hpp"
@@ -235,10 +237,9 @@ class Builder {
 
   // The object median along the longest axis of the centroids; ties by index.
   [[nodiscard]] static std::uint32_t halve(std::span<Item> items, const Aabb& centroids) {
-    const Vec3 size = centroids.extent();
-    const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+    const int axis = std::countr_zero(longest_axis(centroids));
     const auto middle = items.begin() + static_cast<std::ptrdiff_t>(items.size() / 2);
-    if (size[axis] > 0) {
+    if (centroids.extent()[axis] > 0) {
       std::nth_element(items.begin(), middle, items.end(), [axis](const Item& a, const Item& b) {
         const float x = a.centroid()[axis];
         const float y = b.centroid()[axis];
@@ -286,6 +287,7 @@ AxisMask longest_axis(const Aabb& box) {
 
 BinaryTree build_tree(std::span<const Aabb> boxes, const BuildConfig& config,
                       const BuildHeuristic& heuristic) {
+  if (boxes.size() >> 31U != 0) throw std::length_error("there are too many boxes for one tree");
   std::vector<Item> items(boxes.size());
   parallel_for(boxes.size(), parallel_grain, [&](std::size_t i) {
     items[i] = {boxes[i], static_cast<std::uint32_t>(i)};

@@ -12,8 +12,8 @@
 
 namespace pah {
 
-// A tree over `boxes`; leaves name them by their position in the span. The number of boxes must be
-// below 2^31.
+// A tree over `boxes`; leaves name them by their position in the span. Throws
+// std::length_error for 2^31 boxes or more.
 [[nodiscard]] BinaryTree build_tree(std::span<const Aabb> boxes, const BuildConfig& config = {},
                                     const BuildHeuristic& heuristic = surface_area_heuristic());
 
@@ -23,7 +23,8 @@ struct BuiltBvh {
   BinaryTree tree;
 };
 
-// Over the triangles that `subset` names, which keep their indices.
+// Over the triangles that `subset` names, which keep their indices. Throws std::length_error if
+// they are too many: 2^26 leaves, say.
 [[nodiscard]] BuiltBvh build_bvh(const Triangles& triangles, std::span<const std::uint32_t> subset,
                                  BuildConfig config = {},
                                  const BuildHeuristic& heuristic = surface_area_heuristic());

@@ -79,7 +79,7 @@ class Collapser {
   }
 
   [[nodiscard]] ChildRef add_leaf(const BinaryTree::Node& leaf) {
-    const auto first_block = static_cast<std::uint32_t>(bvh_.blocks.size());
+    const std::size_t first_block = bvh_.blocks.size();
     constexpr auto width = static_cast<std::uint32_t>(TriangleBlock::width);
     for (std::uint32_t begin = 0; begin < leaf.count; begin += width) {
       TriangleBlock& block = bvh_.blocks.emplace_back();

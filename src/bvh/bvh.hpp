@@ -7,9 +7,11 @@
 #pragma once
 
 #include <array>
+#include <pah/bvh/build_config.hpp>
 #include <pah/bvh/traversal_counts.hpp>
 #include <pah/geometry/triangles.hpp>
 #include <span>
+#include <stdexcept>
 #include <vector>
 
 #include "bvh/binary_tree.hpp"
@@ -20,13 +22,16 @@ namespace pah {
 // What a node names as a child: an inner node, or a leaf as a run of blocks.
 class ChildRef {
  public:
-  static constexpr std::uint32_t max_leaf = 32;           // triangles
-  static constexpr std::uint32_t max_blocks = 1U << 26U;  // of four triangles
+  static constexpr std::uint32_t max_leaf = BuildConfig::most_leaf;  // triangles
+  static constexpr std::uint32_t max_blocks = 1U << 26U;             // of four triangles
 
   ChildRef() = default;
   static ChildRef inner(std::uint32_t node) { return ChildRef(node); }
-  static ChildRef leaf(std::uint32_t first_block, std::uint32_t triangles) {
-    return ChildRef(1U << 31U | first_block << 5U | (triangles - 1));
+  // Throws std::length_error if the BVH has too many blocks.
+  static ChildRef leaf(std::size_t first_block, std::uint32_t triangles) {
+    if (first_block >= max_blocks)
+      throw std::length_error("there are too many triangles for one BVH");
+    return ChildRef(1U << 31U | static_cast<std::uint32_t>(first_block) << 5U | (triangles - 1));
   }
   [[nodiscard]] bool is_leaf() const { return bits_ >> 31U != 0; }
   [[nodiscard]] std::uint32_t node() const { return bits_; }

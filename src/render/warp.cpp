@@ -54,23 +54,11 @@ float sample_window(float u) {
   return (static_cast<float>(i) + t) * (2.0F / intervals) - 1;
 }
 
-float window_density(float x) {
-  if (!(std::abs(x) < 1)) return 0;
-  const float position = (x + 1) * (intervals / 2.0F);
-  const int i = std::min(static_cast<int>(position), intervals - 1);
-  const auto k = static_cast<std::size_t>(i);
-  return glm::mix(window.density[k], window.density[k + 1], position - static_cast<float>(i));
-}
-
 }  // namespace
 
 Vec3 sample_uniform_sphere(Vec2 u) { return sample_uniform_cone(u, 2); }
 
 float pdf_uniform_sphere() { return 1 / (4 * pi); }
-
-Vec3 sample_uniform_hemisphere(Vec2 u) { return sample_uniform_cone(u, 1); }
-
-float pdf_uniform_hemisphere(const Vec3& w) { return w.z >= 0 ? 1 / (2 * pi) : 0; }
 
 Vec3 sample_cosine_hemisphere(Vec2 u) {
   const Vec2 d = sample_unit_disk(u);
@@ -102,11 +90,6 @@ Vec2 sample_uniform_triangle(Vec2 u) {
 
 Vec2 sample_blackman_harris(Vec2 u, float radius) {
   return radius * Vec2{sample_window(u.x), sample_window(u.y)};
-}
-
-float pdf_blackman_harris(Vec2 offset, float radius) {
-  const Vec2 x = offset / radius;
-  return window_density(x.x) * window_density(x.y) / (radius * radius);
 }
 
 Vec2 sample_box(Vec2 u, float radius) { return radius * (2.0F * u - 1.0F); }

@@ -8,8 +8,6 @@ namespace pah {
 // Directions; densities per solid angle.
 [[nodiscard]] Vec3 sample_uniform_sphere(Vec2 u);
 [[nodiscard]] float pdf_uniform_sphere();
-[[nodiscard]] Vec3 sample_uniform_hemisphere(Vec2 u);
-[[nodiscard]] float pdf_uniform_hemisphere(const Vec3& w);
 [[nodiscard]] Vec3 sample_cosine_hemisphere(Vec2 u);
 [[nodiscard]] float pdf_cosine_hemisphere(const Vec3& w);
 
@@ -27,7 +25,6 @@ namespace pah {
 // An offset from the pixel's center, distributed as the Blackman-Harris window over
 // [-radius, radius]^2, or uniform for the box filter. All samples then weigh the same.
 [[nodiscard]] Vec2 sample_blackman_harris(Vec2 u, float radius);
-[[nodiscard]] float pdf_blackman_harris(Vec2 offset, float radius);
 [[nodiscard]] Vec2 sample_box(Vec2 u, float radius);
 
 }  // namespace pah

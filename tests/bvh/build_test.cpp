@@ -166,3 +166,15 @@ TEST_CASE("A heuristic decides which axis is split") {
   }
   CHECK(overlaps == 0);
 }
+
+TEST_CASE("A tree or BVH that cannot number its parts is refused") {
+  // Never looked at.
+  const std::span<const Aabb> boxes(reinterpret_cast<const Aabb*>(alignof(Aabb)),
+                                    std::size_t{1} << 31U);
+  CHECK_THROWS_AS(build_tree(boxes), std::length_error);
+  const ChildRef last = ChildRef::leaf(ChildRef::max_blocks - 1, 32);
+  CHECK(last.is_leaf());
+  CHECK(last.first_block() == ChildRef::max_blocks - 1);
+  CHECK(last.triangles() == 32);
+  CHECK_THROWS_AS(ChildRef::leaf(ChildRef::max_blocks, 1), std::length_error);
+}

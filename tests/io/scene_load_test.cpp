@@ -55,7 +55,6 @@ TEST_CASE("a scene with nothing in it has every default") {
   CHECK(scene.influence_areas.derive);
   CHECK(scene.acceleration.bins == 16);
   CHECK(scene.acceleration.heuristic == std::nullopt);
-  CHECK_FALSE(scene.acceleration.octree_depth);
   CHECK(scene.instances.empty());
   CHECK(scene.lights.empty());
 }

@@ -240,8 +240,9 @@ TEST_CASE("bad lights and influence areas") {
       {"acceleration: {heuristic: paah}",
        "scene.yaml:1:27: error: unknown heuristic 'paah' of acceleration; did you mean 'pah'? "
        "Available options are: auto, sah, pah"},
-      {"acceleration: {octree_depth: 11}",
-       "scene.yaml:1:30: error: 'octree_depth' of acceleration must be a whole number between 1 "
-       "and 10, not 11"},
+      {"acceleration: {max_leaf_triangles: 33}",
+       "scene.yaml:1:36: error: 'max_leaf_triangles' of acceleration must be a whole number "
+       "between "
+       "1 and 32, not 33"},
   });
 }

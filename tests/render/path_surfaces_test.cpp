@@ -46,7 +46,7 @@ TEST_CASE("rays spawned from a convex body never meet it again") {
         const SurfaceInteraction at = interact(world, hit);
         if (at.point.normal == Vec3(0)) continue;
         // Half of them graze.
-        Vec3 local = sample_uniform_hemisphere(random.next_2d());
+        Vec3 local = sample_uniform_cone(random.next_2d(), 1);
         if (i % 2 == 0) local.z *= 1e-3F;
         const Vec3 direction = make_frame(at.point.normal).world_from_local(local);
         if (glm::dot(direction, at.point.normal) > 0) {

@@ -28,8 +28,6 @@ TEST_CASE("directions on the sphere and hemispheres follow their densities") {
   Rng rng(1);
   check(chi_square_sphere([](Rng& r) { return sample_uniform_sphere(uniform2(r)); },
                           [](const Vec3&) { return pdf_uniform_sphere(); }, count, rng));
-  check(chi_square_sphere([](Rng& r) { return sample_uniform_hemisphere(uniform2(r)); },
-                          pdf_uniform_hemisphere, count, rng));
   check(chi_square_sphere([](Rng& r) { return sample_cosine_hemisphere(uniform2(r)); },
                           pdf_cosine_hemisphere, count, rng));
 }
@@ -77,9 +75,6 @@ TEST_CASE("filter offsets follow the filters") {
     return DVec2{sample_blackman_harris(uniform2(r), radius)};
   };
   const Domain domain{DVec2{-radius}, DVec2{radius}};
-  check(chi_square(
-      domain, offset, [&](const DVec2& p) { return pdf_blackman_harris(Vec2{p}, radius); }, count,
-      rng));
   // The window itself, rather than the one linear between knots.
   const auto window = [](double x) {
     const double t = glm::pi<double>() * x;
@@ -103,8 +98,8 @@ TEST_CASE("the corners of the unit square map to where they belong") {
   const float last = 1 - 0x1p-24F;
   for (const Vec2 u : {Vec2{0, 0}, Vec2{last, 0}, Vec2{0, last}, Vec2{last, last}, Vec2{0.5F}}) {
     CAPTURE(u.x, u.y);
-    for (const Vec3& w : {sample_uniform_sphere(u), sample_uniform_hemisphere(u),
-                          sample_cosine_hemisphere(u), sample_uniform_cone(u, 1e-6F)}) {
+    for (const Vec3& w :
+         {sample_uniform_sphere(u), sample_cosine_hemisphere(u), sample_uniform_cone(u, 1e-6F)}) {
       CHECK(glm::length(w) == Approx(1).margin(1e-6));
     }
     CHECK(sample_cosine_hemisphere(u).z >= 0);
@@ -121,7 +116,8 @@ TEST_CASE("the corners of the unit square map to where they belong") {
 TEST_CASE("the chi-square test rejects a wrong density") {
   Rng rng(5);
   const auto cosine = [](Rng& r) { return sample_cosine_hemisphere(uniform2(r)); };
-  CHECK(chi_square_sphere(cosine, pdf_uniform_hemisphere, count, rng).p < 1e-6);
+  const auto uniform = [](const Vec3& w) { return w.z >= 0 ? 0.5 / glm::pi<double>() : 0; };
+  CHECK(chi_square_sphere(cosine, uniform, count, rng).p < 1e-6);
   const auto tilted = [](const Vec3& w) {
     return pdf_cosine_hemisphere(w) * (1 + 0.02 * static_cast<double>(w.x));
   };

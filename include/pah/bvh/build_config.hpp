@@ -45,7 +45,8 @@ struct BuildConfig {
   // Per axis, min_bins to max_bins: the borders between bins are the candidates for a split.
   static constexpr std::uint32_t min_bins = 2, max_bins = 64;
   std::uint32_t bins = 16;
-  // Triangles, 1 to 32: larger leaves are split whatever the cost.
+  // Triangles, 1 to most_leaf: larger leaves are split whatever the cost.
+  static constexpr std::uint32_t most_leaf = 32;
   std::uint32_t max_leaf = 8;
   // Triangles tested at a time, at least 1.
   std::uint32_t side_by_side = 4;

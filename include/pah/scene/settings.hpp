@@ -64,18 +64,12 @@ struct InfluenceSettings {
   std::vector<AreaDeclaration> declared;
 };
 
-// Rays carry their bundle and find its areas by it: all three are a list per bundle so far.
-enum class TopLevelKind { automatic, list, octree };
-
 struct AccelerationSettings {
   std::optional<Heuristic> heuristic;  // of local BVHs; without one SAH so far
   SplitAxis split_axis = SplitAxis::best;
-  TopLevelKind top_level = TopLevelKind::automatic;
-  std::optional<int> octree_depth;  // in [1, 10]; without effect so far
-  // Of local BVHs: see BuildConfig, whose range and default these are; leaves hold 32 triangles at
-  // most, whatever is said.
+  // Of local BVHs: see BuildConfig, whose ranges and defaults these are.
   int bins = static_cast<int>(BuildConfig{}.bins);
-  int max_leaf_triangles = static_cast<int>(BuildConfig{}.max_leaf);  // in [1, 64]
+  int max_leaf_triangles = static_cast<int>(BuildConfig{}.max_leaf);
 };
 
 }  // namespace pah

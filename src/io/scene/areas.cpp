@@ -107,14 +107,8 @@ void read_acceleration(SceneReading& reading, const YamlNode* node) {
                EnumNames<SplitAxis>{{"auto", SplitAxis::best},
                                     {"longest", SplitAxis::longest},
                                     {"facing", SplitAxis::facing}});
-    map.option("top_level", settings.top_level,
-               EnumNames<TopLevelKind>{{"auto", TopLevelKind::automatic},
-                                       {"list", TopLevelKind::list},
-                                       {"octree", TopLevelKind::octree}});
-    int depth = 0;
-    if (map.optional("octree_depth", depth, 1, 10)) settings.octree_depth = depth;
     map.optional("bins", settings.bins, int{BuildConfig::min_bins}, int{BuildConfig::max_bins});
-    map.optional("max_leaf_triangles", settings.max_leaf_triangles, 1, 64);
+    map.optional("max_leaf_triangles", settings.max_leaf_triangles, 1, int{BuildConfig::most_leaf});
   });
 }
 
