@@ -59,7 +59,8 @@ Scattering scatter_at(const World& world, const TextureStore& textures,
   Vec3 normal = at.normal;
   bool tilted = at.smooth;
   if (material.normal_map != no_texture) {
-    const Vec3 mapped = mapped_normal(material, textures, at.uv, footprint);
+    Vec3 mapped = mapped_normal(material, textures, at.uv, footprint);
+    if (at.mirrored) mapped.y = -mapped.y;
     normal = glm::normalize(make_frame(normal, at.tangent).world_from_local(mapped));
     tilted = true;
   }

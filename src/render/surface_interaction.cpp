@@ -45,6 +45,7 @@ SurfaceInteraction interact(const World& world, const Hit& hit) {
     const float twice_area = glm::length(glm::cross(e1, e2));
     if (determinant != 0 && twice_area > 0) {
       at.tangent = (d2.y * e1 - d1.y * e2) / determinant;
+      at.mirrored = determinant < 0;
       at.uv_per_length = std::sqrt(std::abs(determinant) / twice_area);
     }
   } else {

@@ -14,6 +14,7 @@ struct SurfaceInteraction {
   Vec3 tangent{0};     // along growing u, of any length; zero if not known
   Vec2 uv{0};
   float uv_per_length = 0;  // texture coordinates per unit of length
+  bool mirrored = false;    // growing u, growing v and the normal are left-handed
   bool smooth = false;      // the two normals differ
   const Surface* surface = nullptr;
 };

@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 
+#include "io/extension.hpp"
 #include "io/mesh/gltf_check.hpp"
 #include "io/mesh/little_endian.hpp"
 
@@ -145,7 +146,7 @@ GltfDocument read_gltf_document(const fs::path& file, const fs::path& folder,
                                 std::uint64_t max_bytes) {
   const std::string bytes = read_bytes(file, max_bytes);
   const bool binary = bytes.rfind("glTF", 0) == 0;
-  if (binary != (file.extension() == ".glb" || file.extension() == ".GLB"))
+  if (binary != (lower_extension(file) == ".glb"))
     throw MeshFileError(binary ? "it is binary glTF, whose extension is .glb"
                                : "the file is cut short, or not binary glTF");
   const Container container = binary ? open_container(bytes) : Container{bytes, {}};
