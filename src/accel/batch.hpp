@@ -14,11 +14,11 @@ inline constexpr std::size_t batch_size = 64;
 
 // Calls `trace(prepared rays, first)` for successive runs of `rays`.
 template <typename Trace>
-void for_batches(std::span<const Ray> rays, const Aabb& scene, const Trace& trace) {
+void for_batches(std::span<const Ray> rays, const Trace& trace) {
   std::array<PreparedRay, batch_size> prepared;
   for (std::size_t first = 0; first < rays.size(); first += batch_size) {
     const std::size_t count = std::min(batch_size, rays.size() - first);
-    for (std::size_t i = 0; i < count; ++i) prepared[i] = prepare(rays[first + i], scene);
+    for (std::size_t i = 0; i < count; ++i) prepared[i] = prepare(rays[first + i]);
     trace(std::span<const PreparedRay>(prepared.data(), count), first);
   }
 }

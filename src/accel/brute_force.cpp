@@ -17,13 +17,13 @@ struct BoxGroup {
 
 class BruteForce final : public Accelerator {
  public:
-  explicit BruteForce(const Triangles& triangles) : bounds_(bounds_of(triangles)) {
+  explicit BruteForce(const Triangles& triangles) {
     triangles_.reserve(triangles.size());
     for (std::size_t i = 0; i < triangles.size(); ++i) triangles_.push_back(triangles[i]);
 
     boxes_.resize((triangles.size() + BoxGroup::size - 1) / BoxGroup::size);
     for (std::size_t i = 0; i < boxes_.size() * BoxGroup::size; ++i) {
-      const Aabb box = i < triangles.size() ? triangles[i].bounds() : Aabb{};
+      const Aabb box = i < triangles.size() ? padded(triangles[i].bounds()) : Aabb{};
       for (std::size_t axis = 0; axis < 3; ++axis) {
         auto& planes = boxes_[i / BoxGroup::size].planes[axis];
         planes[0][i % BoxGroup::size] = box.min[static_cast<int>(axis)];
@@ -35,7 +35,7 @@ class BruteForce final : public Accelerator {
   void closest_hit(std::span<const Ray> rays, std::span<Hit> hits,
                    TraversalCounts* counts) const override {
     for (std::size_t k = 0; k < rays.size(); ++k) {
-      const PreparedRay ray = prepare(rays[k], bounds_);
+      const PreparedRay ray = prepare(rays[k]);
       Hit best = nothing_yet(ray);
       visit(ray, [&](std::size_t i) {
         update_nearest(ray, triangles_[i], static_cast<std::uint32_t>(i), best);
@@ -49,7 +49,7 @@ class BruteForce final : public Accelerator {
   void occluded(std::span<const Ray> rays, std::span<std::uint8_t> results,
                 TraversalCounts* counts) const override {
     for (std::size_t k = 0; k < rays.size(); ++k) {
-      const PreparedRay ray = prepare(rays[k], bounds_);
+      const PreparedRay ray = prepare(rays[k]);
       std::size_t tests = triangles_.size();
       results[k] = 0;
       visit(ray, [&](std::size_t i) {
@@ -66,8 +66,8 @@ class BruteForce final : public Accelerator {
   [[nodiscard]] AcceleratorMemory memory() const override { return {}; }
 
  private:
-  // Calls `test(i)` for every triangle whose own box the ray meets (part 2 of the shared rule,
-  // taken first because it is cheap for eight at a time), until it returns true.
+  // Calls `test(i)` for every triangle whose own padded box the ray meets (part 2 of the shared
+  // rule, taken first because it is cheap for eight at a time), until it returns true.
   template <typename Test>
   void visit(const PreparedRay& ray, const Test& test) const {
     for (std::size_t group = 0; group < boxes_.size(); ++group) {
@@ -92,7 +92,6 @@ class BruteForce final : public Accelerator {
 
   std::vector<Triangle> triangles_;
   std::vector<BoxGroup> boxes_;
-  Aabb bounds_;
 };
 
 }  // namespace

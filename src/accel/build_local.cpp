@@ -12,26 +12,27 @@ namespace pah {
 
 namespace {
 
-// The largest number that coordinates and differences of coordinates in a box can have.
+// The largest coordinate in a box.
 float magnitude_of(const Aabb& box) {
-  const Vec3 size = glm::max(box.extent(), glm::max(glm::abs(box.min), glm::abs(box.max)));
-  return std::max(size.x, std::max(size.y, size.z));
+  return largest_of(glm::max(glm::abs(box.min), glm::abs(box.max)));
 }
 
-// With u the unit roundoff and M the magnitude above: a segment's end misses the eye it was aimed
-// at by the rounding of the eye to float (u M), of the direction (2 u M), of the offset origin and
-// of t_max (1 u M each).
-constexpr int end_roundings = 5;
-// Adds the padding of the slab test (11 u M and 2 u M, ray_box.hpp), the rounding of the interval's
-// ends (3 u M) and that of the widened box (2 u M).
-constexpr int margin_roundings = end_roundings + 18;
+// With u the unit roundoff and M the magnitude of the region and of what a triangle's box adds to
+// it, differences of coordinates are at most 2 M. A segment's end misses the eye it was aimed at by
+// the rounding of the eye to float (u M), of the direction (4 u M), of the offset origin (u M) and
+// of t_max (2 u M).
+constexpr int end_roundings = 8;
+// Adds the padding of origin and box (11 u M, 13 u M and twice 2 u M, ray_box.hpp), the rounding of
+// the interval's ends (6 u M) and that of the widened box (2 u M).
+constexpr int margin_roundings = end_roundings + 36;
 
 std::vector<std::uint32_t> triangles_near(const Triangles& triangles, const Region& region,
-                                          float margin) {
+                                          float magnitude) {
   const RegionShape shape = shape_of(region);
   std::vector<std::uint8_t> near(triangles.size());
   parallel_for(near.size(), 4096, [&](std::size_t i) {
     const Aabb box = triangles[i].bounds();
+    const float margin = rounding_bound(margin_roundings) * std::max(magnitude, magnitude_of(box));
     near[i] = overlaps(shape, Aabb{box.min - margin, box.max + margin}) ? 1 : 0;
   });
   std::vector<std::uint32_t> subset;
@@ -43,16 +44,12 @@ std::vector<std::uint32_t> triangles_near(const Triangles& triangles, const Regi
 
 }  // namespace
 
-LocalTriangles local_triangles(const Triangles& triangles, const Aabb& bounds,
-                               const InfluenceArea& area) {
+LocalTriangles local_triangles(const Triangles& triangles, const InfluenceArea& area) {
   LocalTriangles local;
   local.region = region_of(area);
-  Aabb reachable = bounds;
-  reachable.extend(enclosing_box(local.region));
-  const float magnitude = magnitude_of(reachable);
+  const float magnitude = magnitude_of(enclosing_box(local.region));
   local.end_margin = rounding_bound(end_roundings) * magnitude;
-  local.subset =
-      triangles_near(triangles, local.region, rounding_bound(margin_roundings) * magnitude);
+  local.subset = triangles_near(triangles, local.region, magnitude);
   return local;
 }
 
@@ -61,11 +58,11 @@ BuiltBvh build_local(const Triangles& triangles, std::span<const std::uint32_t> 
   return build_bvh(triangles, subset, config.build, bundle_heuristic(area, config));
 }
 
-BuiltLocalBvh build_local_bvh(const Triangles& triangles, const Aabb& bounds,
-                              const InfluenceArea& area, const LocalConfig& config) {
+BuiltLocalBvh build_local_bvh(const Triangles& triangles, const InfluenceArea& area,
+                              const LocalConfig& config) {
   const auto start = std::chrono::steady_clock::now();
   BuiltLocalBvh local;
-  local.triangles = local_triangles(triangles, bounds, area);
+  local.triangles = local_triangles(triangles, area);
   local.built = build_local(triangles, local.triangles.subset, area, config);
   local.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return local;

@@ -15,9 +15,7 @@ struct LocalTriangles {
   std::vector<std::uint32_t> subset;
 };
 
-// `bounds` holds all triangles.
-[[nodiscard]] LocalTriangles local_triangles(const Triangles& triangles, const Aabb& bounds,
-                                             const InfluenceArea& area);
+[[nodiscard]] LocalTriangles local_triangles(const Triangles& triangles, const InfluenceArea& area);
 
 [[nodiscard]] BuiltBvh build_local(const Triangles& triangles,
                                    std::span<const std::uint32_t> subset, const InfluenceArea& area,
@@ -29,8 +27,8 @@ struct BuiltLocalBvh {
   BuiltBvh built;
   double seconds = 0;
 };
-[[nodiscard]] BuiltLocalBvh build_local_bvh(const Triangles& triangles, const Aabb& bounds,
-                                            const InfluenceArea& area, const LocalConfig& config);
+[[nodiscard]] BuiltLocalBvh build_local_bvh(const Triangles& triangles, const InfluenceArea& area,
+                                            const LocalConfig& config);
 
 // Expected cost of a ray of the bundle, whether it meets the tree's root or not.
 [[nodiscard]] double bundle_cost(const BinaryTree& tree, const BuildConfig& config,

@@ -10,12 +10,11 @@ namespace {
 
 class GlobalBvh final : public Accelerator {
  public:
-  explicit GlobalBvh(const Triangles& triangles)
-      : bvh_(build_bvh(triangles).bvh), bounds_(bounds_of(triangles)) {}
+  explicit GlobalBvh(const Triangles& triangles) : bvh_(build_bvh(triangles).bvh) {}
 
   void closest_hit(std::span<const Ray> rays, std::span<Hit> hits,
                    TraversalCounts* counts) const override {
-    for_batches(rays, bounds_, [&](std::span<const PreparedRay> batch, std::size_t first) {
+    for_batches(rays, [&](std::span<const PreparedRay> batch, std::size_t first) {
       const std::span<Hit> found = hits.subspan(first, batch.size());
       std::transform(batch.begin(), batch.end(), found.begin(), nothing_yet);
       closest_hits(bvh_, batch, found, counts);
@@ -26,7 +25,7 @@ class GlobalBvh final : public Accelerator {
   void occluded(std::span<const Ray> rays, std::span<std::uint8_t> results,
                 TraversalCounts* counts) const override {
     std::fill_n(results.begin(), rays.size(), std::uint8_t{0});
-    for_batches(rays, bounds_, [&](std::span<const PreparedRay> batch, std::size_t first) {
+    for_batches(rays, [&](std::span<const PreparedRay> batch, std::size_t first) {
       pah::occluded(bvh_, batch, results.subspan(first, batch.size()), counts);
     });
   }
@@ -37,7 +36,6 @@ class GlobalBvh final : public Accelerator {
 
  private:
   Bvh bvh_;
-  Aabb bounds_;
 };
 
 }  // namespace

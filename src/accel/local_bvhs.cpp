@@ -1,12 +1,12 @@
 // Who answers which ray.
 //
-// A local BVH holds every triangle whose box, widened by `margin`, meets the area's region. The
-// reported t of a hit lies in the ray's slab interval of the triangle's own box (ray_triangle.hpp),
-// so the ray's point at t lies in that box but for rounding. Hence every hit at a t up to which the
-// ray stays within the region, or within a fraction of the margin of it, is a hit of the local BVH:
-// up to there its answer, the nearest or none, is the answer. This holds for triangles that are cut
-// by the region, areas that overlap and eyes inside of boxes alike; beyond it the ray is asked of
-// the global BVH again as a whole.
+// A local BVH holds every triangle whose box, widened by a margin, meets the area's region. The
+// reported t of a hit lies in the ray's slab interval of the triangle's own padded box
+// (ray_triangle.hpp), so the ray's point at t lies in that box but for rounding. Hence every hit at
+// a t up to which the ray stays within the region, or within a fraction of the margin of it, is a
+// hit of the local BVH: up to there its answer, the nearest or none, is the answer. This holds for
+// triangles that are cut by the region, areas that overlap and eyes inside of boxes alike; beyond
+// it the ray is asked of the global BVH again as a whole.
 #include <algorithm>
 #include <atomic>
 #include <numeric>
@@ -69,7 +69,7 @@ class LocalBvhsOverGlobal final : public LocalBvhs {
  public:
   LocalBvhsOverGlobal(const Triangles& triangles, const std::vector<LocalArea>& areas,
                       const LocalConfig& config)
-      : bounds_(bounds_of(triangles)), counters_(areas.size()) {
+      : bounds_(padded(bounds_of(triangles))), counters_(areas.size()) {
     BuiltBvh global = build_bvh(triangles);
     areas_.reserve(areas.size());
     for (const LocalArea& area : areas) add(area, triangles, config, global.tree);
@@ -81,7 +81,7 @@ class LocalBvhsOverGlobal final : public LocalBvhs {
 
   void closest_hit(std::span<const Ray> rays, std::span<Hit> hits,
                    TraversalCounts* counts) const override {
-    for_batches(rays, bounds_, [&](std::span<const PreparedRay> batch, std::size_t first) {
+    for_batches(rays, [&](std::span<const PreparedRay> batch, std::size_t first) {
       const std::span<Hit> found = hits.subspan(first, batch.size());
       std::transform(batch.begin(), batch.end(), found.begin(), nothing_yet);
       const auto trace = [&](const auto& structure, const Lanes& lanes, TraversalCounts* spent) {
@@ -98,7 +98,7 @@ class LocalBvhsOverGlobal final : public LocalBvhs {
   void occluded(std::span<const Ray> rays, std::span<std::uint8_t> results,
                 TraversalCounts* counts) const override {
     std::fill_n(results.begin(), rays.size(), std::uint8_t{0});
-    for_batches(rays, bounds_, [&](std::span<const PreparedRay> batch, std::size_t first) {
+    for_batches(rays, [&](std::span<const PreparedRay> batch, std::size_t first) {
       const std::span<std::uint8_t> found = results.subspan(first, batch.size());
       const auto trace = [&](const auto& structure, const Lanes& lanes, TraversalCounts* spent) {
         std::array<std::uint8_t, batch_size> local{};
@@ -159,7 +159,7 @@ class LocalBvhsOverGlobal final : public LocalBvhs {
            const BinaryTree& global) {
     Area area;
     area.declared = declared;
-    BuiltLocalBvh local = build_local_bvh(triangles, bounds_, declared.area, config);
+    BuiltLocalBvh local = build_local_bvh(triangles, declared.area, config);
     area.region = local.triangles.region;
     area.end_margin = local.triangles.end_margin;
     area.holds_scene = local.triangles.subset.size() == triangles.size();
@@ -232,7 +232,7 @@ class LocalBvhsOverGlobal final : public LocalBvhs {
     if (open.count > 0) trace(global_, open, counts);
   }
 
-  Aabb bounds_;
+  Aabb bounds_;  // of all triangles, padded
   Bvh global_;
   std::vector<Area> areas_;
   std::vector<std::uint32_t> order_;  // areas by bundle

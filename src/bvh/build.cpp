@@ -300,7 +300,7 @@ BuiltBvh build_bvh(const Triangles& triangles, std::span<const std::uint32_t> su
   config.max_leaf = std::min(config.max_leaf, ChildRef::max_leaf);
   std::vector<Aabb> boxes(subset.size());
   parallel_for(boxes.size(), parallel_grain,
-               [&](std::size_t i) { boxes[i] = triangles[subset[i]].bounds(); });
+               [&](std::size_t i) { boxes[i] = padded(triangles[subset[i]].bounds()); });
   BinaryTree tree = build_tree(boxes, config, heuristic);
   boxes.resize(tree.nodes.size());
   std::ranges::transform(tree.nodes, boxes.begin(), &BinaryTree::Node::box);

@@ -14,6 +14,10 @@ void print_warnings(const std::vector<LocatedError>& warnings) {
   for (const LocatedError& warning : warnings) fmt::print(stderr, "{}\n", format_warning(warning));
 }
 
+void print_warnings(const std::vector<std::string>& warnings) {
+  for (const std::string& warning : warnings) fmt::print(stderr, "warning: {}\n", warning);
+}
+
 std::string format_duration(double seconds) {
   if (!(seconds >= 9.95)) return fmt::format("{:.1f} s", seconds);
   const auto whole = std::llround(std::min(seconds, 1e12));

@@ -10,6 +10,7 @@
 namespace pah::cli {
 
 void print_warnings(const std::vector<LocatedError>& warnings);
+void print_warnings(const std::vector<std::string>& warnings);
 
 // "4.2 s", "3:07", "2:03:07".
 [[nodiscard]] std::string format_duration(double seconds);

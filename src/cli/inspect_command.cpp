@@ -58,7 +58,7 @@ TimedBvh build_global(const Triangles& triangles) {
 
 BvhReport report_local(const World& world, const SceneArea& area, const LocalConfig& config,
                        const BinaryTree& global) {
-  const BuiltLocalBvh local = build_local_bvh(world.triangles(), world.bounds, area.area, config);
+  const BuiltLocalBvh local = build_local_bvh(world.triangles(), area.area, config);
   const BinaryTree& tree = local.built.tree;
   const HitProbability probability(area.area);
   const bool projected = config.heuristic == Heuristic::projected_area;
@@ -83,10 +83,10 @@ ExitCode run_inspect(const InspectArguments& arguments) {
   Scene& scene = loaded.scene;
   apply(arguments, scene.film);
   const World world = make_world(scene);
+  print_warnings(world.warnings);
 
   const TimedBvh global = build_global(world.triangles());
-  const PictureCosts costs =
-      measure_costs(global.built.bvh, world.bounds, world.camera, scene.film);
+  const PictureCosts costs = measure_costs(global.built.bvh, world.camera, scene.film);
   InspectReport report;
   report.version = PAHRENDER_VERSION;
   report.scene = arguments.scene.string();

@@ -146,6 +146,7 @@ ExitCode run_render(const RenderArguments& arguments) {
     return ExitCode::done;
   }
   const World world = make_world(scene);
+  if (!arguments.quiet) print_warnings(world.warnings);
   // From here on everything comes from the world.
   scene.meshes = {};
   scene.instances = {};

@@ -5,14 +5,17 @@
 // an interval inside the other's TO THE LAST BIT. That is what makes culling exact; see
 // ray_triangle.hpp for how the two tests become one rule.
 //
-// The origin is padded (near planes are seen from further along the direction, far planes from
-// further back), which widens every box by the same amount at no cost per box. With M the largest
-// distance along an axis from the origin to a corner of the scene, the padding must cover
+// Boxes are padded against rounding. With M the largest distance along an axis from the ray's
+// origin to a corner of the triangle's box, the padding must cover
 //   7 u M: sheared vertices of the triangle test (u = unit roundoff; ray_triangle.hpp), and
 //   3 u M: the slab formula itself: difference, reciprocal, product. Ize ("Robust BVH Ray
 //          Traversal", JCGT 2013) widens t_far for this; padding the planes covers both ends.
-// rounding_bound(11) leaves one u for terms of second order. Adding the padding to the origin
-// rounds, too: 2 u |origin| more make up for that.
+// M is at most the largest coordinate A of the box and O of the origin, by magnitude, together. So
+// a triangle's box is padded for its A when a structure is built, and the origin for its O when a
+// ray is prepared (near planes are seen from further along the direction, far planes from further
+// back): nothing is left to do per box, and what is far away does not widen what is near.
+// rounding_bound(11) leaves one u for terms of second order. Adding the padding to a coordinate,
+// and computing it, rounds, too: 2 u of the coordinate more make up for that.
 //
 // A zero of the direction would give 0 * infinity; its inverse is the largest float instead, with
 // the zero's sign. Either the origin is outside the padded slab (t_near is then huge: a miss) or it
@@ -52,19 +55,26 @@ struct PreparedRay {
 inline constexpr float min_direction = 0x1p-100F;
 inline constexpr float max_direction = 0x1p100F;
 
-// `scene` is the box of ALL triangles of the scene, whatever subset of them is to be tested.
-[[nodiscard]] inline PreparedRay prepare(const Ray& ray, const Aabb& scene) {
+[[nodiscard]] inline float largest_of(const Vec3& v) { return std::max(v.x, std::max(v.y, v.z)); }
+
+// The box of a triangle, or of several, as rays are to meet it. A box inside another stays inside.
+[[nodiscard]] inline Aabb padded(const Aabb& box) {
+  const float padding =
+      rounding_bound(13) * largest_of(glm::max(glm::abs(box.min), glm::abs(box.max)));
+  return {box.min - padding, box.max + padding};
+}
+
+[[nodiscard]] inline PreparedRay prepare(const Ray& ray) {
   PreparedRay prepared;
   const Vec3 size = glm::abs(ray.direction);
-  const float largest = std::max(size.x, std::max(size.y, size.z));
+  const float largest = largest_of(size);
   // A sum is NaN if any summand is, and infinite or NaN if any is infinite.
   const bool usable = size.x + size.y + size.z <= 3 * max_direction && largest >= min_direction &&
                       std::isfinite(ray.origin.x) && std::isfinite(ray.origin.y) &&
                       std::isfinite(ray.origin.z) && ray.t_max > 0;
   if (!usable) return prepared;
 
-  const Vec3 reach = glm::max(scene.max - ray.origin, ray.origin - scene.min);
-  const float padding = rounding_bound(11) * std::max(reach.x, std::max(reach.y, reach.z));
+  const float padding = rounding_bound(11) * largest_of(glm::abs(ray.origin));
   for (int i = 0; i < 3; ++i) {
     const float huge = std::numeric_limits<float>::max();
     const float inverse = std::clamp(1.0F / ray.direction[i], -huge, huge);
@@ -87,7 +97,7 @@ inline constexpr float max_direction = 0x1p100F;
   return prepared;
 }
 
-// Where a ray is inside a box; empty if near > far. near >= 0.
+// Where a ray is inside a padded box; empty if near > far. near >= 0.
 struct SlabInterval {
   float near = 0;
   float far = std::numeric_limits<float>::infinity();

@@ -3,18 +3,19 @@
 // The rule. A ray hits a triangle if and only if
 //   1. the watertight test of Woop, Benthin and Wald ("Watertight Ray/Triangle Intersection", JCGT
 //      2013) accepts: the ray's line meets the triangle, edges and vertices included, both faces;
-//   2. the ray's slab interval [near, far] of the triangle's OWN box (ray_box.hpp) is not empty;
+//   2. the ray's slab interval [near, far] of the triangle's OWN padded box (ray_box.hpp) is not
+//      empty;
 //   3. the hit is in front of the origin beyond doubt: either the whole interval is (near > 0) or t
 //      exceeds its error bound (pbrt-v4, 6.8.5 "Robust Triangle Intersections");
 //   4. t, clamped to [near, far], is at most t_max.
 // Among hits the least (t, triangle index) wins.
 //
-// Why no acceleration changes an answer. The rule depends on the ray, the triangle and the scene's
-// box only. A box of a tree contains its triangles' boxes exactly, and the slab formula is
-// monotone; so a node's interval contains the interval of each triangle below it, in which the
-// reported t lies: near(node) <= t <= far(node). A traversal that skips a node only if its interval
-// is empty or near(node) > t of a hit already found can therefore not skip the winner, whatever the
-// tree and the order.
+// Why no acceleration changes an answer. The rule depends on the ray and the triangle only. A box
+// of a tree contains its triangles' padded boxes exactly, and the slab formula is monotone; so a
+// node's interval contains the interval of each triangle below it, in which the reported t lies:
+// near(node) <= t <= far(node). A traversal that skips a node only if its interval is empty or
+// near(node) > t of a hit already found can therefore not skip the winner, whatever the tree and
+// the order.
 //
 // Why the box takes no hit away. Edge functions have the exact sign for the sheared, rounded
 // vertices: rounding is monotone, so a float difference of float products errs in sign only by
@@ -111,7 +112,7 @@ template <typename Real>
                                  const ShearedVertex& r, const EdgeFunctions<float>& edge,
                                  float t_limit, TriangleHit& hit) {
   // First, because it is cheap and rejects what is behind the origin or beyond the limit.
-  const SlabInterval interval = intersect_box(ray, triangle.bounds());
+  const SlabInterval interval = intersect_box(ray, padded(triangle.bounds()));
   if (!(interval.near <= std::min(interval.far, t_limit))) return false;
 
   // Doubles decide zeros, and take over where float would lose digits at the ends of its range.

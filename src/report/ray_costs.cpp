@@ -8,8 +8,7 @@
 
 namespace pah {
 
-PictureCosts measure_costs(const Bvh& bvh, const Aabb& bounds, const Camera& camera,
-                           const FilmSettings& film) {
+PictureCosts measure_costs(const Bvh& bvh, const Camera& camera, const FilmSettings& film) {
   const CameraRays camera_rays(camera, film);
   const auto width = static_cast<std::size_t>(film.width);
   PictureCosts costs{film.width, film.height, {}};
@@ -18,7 +17,7 @@ PictureCosts measure_costs(const Bvh& bvh, const Aabb& bounds, const Camera& cam
     const int y = static_cast<int>(row);
     for (int x = 0; x < film.width; ++x) {
       // By itself, so that the counts are its own.
-      const PreparedRay ray = prepare(camera_rays.central(x, y), bounds);
+      const PreparedRay ray = prepare(camera_rays.central(x, y));
       Hit hit = nothing_yet(ray);
       TraversalCounts counts;
       closest_hits(bvh, std::span(&ray, 1), std::span(&hit, 1), &counts);

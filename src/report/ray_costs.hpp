@@ -27,8 +27,8 @@ struct CostSummary {
   std::uint32_t max_nodes = 0, max_triangles = 0;  // of one ray
 };
 
-// Of the whole picture, whatever its crop. `bounds` holds the BVH and is what rays are asked about.
-[[nodiscard]] PictureCosts measure_costs(const Bvh& bvh, const Aabb& bounds, const Camera& camera,
+// Of the whole picture, whatever its crop.
+[[nodiscard]] PictureCosts measure_costs(const Bvh& bvh, const Camera& camera,
                                          const FilmSettings& film);
 
 [[nodiscard]] CostSummary summarize(const PictureCosts& costs);

@@ -5,19 +5,11 @@
 #include <stdexcept>
 
 #include "parallel/parallel_for.hpp"
+#include "scene/bounds.hpp"
+#include "scene/origin.hpp"
 
 namespace pah {
 namespace {
-
-struct Bounds {
-  DVec3 min{HUGE_VAL};
-  DVec3 max{-HUGE_VAL};
-
-  void extend(const Bounds& other) {
-    min = glm::min(min, other.min);
-    max = glm::max(max, other.max);
-  }
-};
 
 // What goes wrong with an instance, found in parallel and reported by the lowest instance, so that
 // the message does not depend on the threads.
@@ -186,8 +178,8 @@ std::vector<Slot> lay_out(const Scene& scene, World& world) {
   return slots;
 }
 
-// The center of the scene, in double and halved before adding.
-DVec3 center_of(const Scene& scene) {
+// Of every instance.
+std::vector<Bounds> boxes_of(const Scene& scene) {
   std::vector<Bounds> boxes(scene.instances.size());
   std::vector<Fault> faults(scene.instances.size(), Fault::none);
   parallel_for(scene.instances.size(), 1, [&](std::size_t i) {
@@ -196,14 +188,23 @@ DVec3 center_of(const Scene& scene) {
     boxes[i] = bounds_of(scene.meshes[instance.mesh], instance.world_from_object, invalid);
     if (invalid) faults[i] = Fault::index;
   });
-  Bounds all;
-  for (std::size_t i = 0; i < boxes.size(); ++i) {
+  for (std::size_t i = 0; i < boxes.size(); ++i)
     if (faults[i] != Fault::none) fail(scene.meshes[scene.instances[i].mesh], text_of(faults[i]));
-    all.extend(boxes[i]);
+  return boxes;
+}
+
+void warn_of_lost_shapes(const Scene& scene, const std::vector<Bounds>& boxes, World& world) {
+  std::size_t lost = 0;
+  std::size_t first = 0;
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    if (!loses_shape(boxes[i], world.origin)) continue;
+    if (lost++ == 0) first = i;
   }
-  const DVec3 center = 0.5 * all.min + 0.5 * all.max;
-  const bool finite = std::isfinite(center.x) && std::isfinite(center.y) && std::isfinite(center.z);
-  return finite ? center : DVec3{0};
+  if (lost == 0) return;
+  const std::string& name = scene.meshes[scene.instances[first].mesh].name;
+  world.warnings.push_back((name.empty() ? "a mesh" : "mesh '" + name + "'") +
+                           (lost > 1 ? " and " + std::to_string(lost - 1) + " more are" : " is") +
+                           " too far from the rest of the scene for the size: the shape is lost");
 }
 
 void recenter(World& world) {
@@ -233,7 +234,9 @@ World make_world(const Scene& scene) {
   world.materials = scene.materials;
   world.textures = scene.textures;
   const std::vector<Slot> slots = lay_out(scene, world);
-  world.origin = center_of(scene);
+  const std::vector<Bounds> boxes = boxes_of(scene);
+  world.origin = choose_origin(scene.camera, boxes);
+  warn_of_lost_shapes(scene, boxes, world);
   recenter(world);
 
   std::vector<Fault> faults(scene.instances.size(), Fault::none);

@@ -90,3 +90,19 @@ TEST_CASE("Rays that make no sense hit nothing") {
     }
   }
 }
+
+TEST_CASE("A distant triangle does not make near rays dearer") {
+  Soup soup = random_soup(20'000, 0.02F, Vec3{0}, 12);
+  const std::vector<Ray> rays = rays_for(random_soup(100, 0.2F, Vec3{0}, 13), 4000, 44);
+  TraversalCounts alone;
+  (void)ask(*make_global_bvh(soup.triangles()), rays, &alone);
+  for (const float far : {1e7F, 1e12F}) {
+    Soup with = soup;
+    with.add({far, 0, 0}, {far, far, 0}, {far, 0, far});
+    TraversalCounts counts;
+    const Answers answers = ask(*make_global_bvh(with.triangles()), rays, &counts);
+    CHECK(static_cast<double>(counts.nodes) < 1.2 * static_cast<double>(alone.nodes));
+    CHECK(static_cast<double>(counts.triangles) < 1.2 * static_cast<double>(alone.triangles));
+    check_same(ask(*make_brute_force(with.triangles()), rays), answers);
+  }
+}

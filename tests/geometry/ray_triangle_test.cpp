@@ -168,7 +168,7 @@ TEST_CASE("Needles and triangles seen edge-on are hit inside their box only") {
     }
     ray.direction = target - ray.origin;
     TriangleHit hit;
-    const PreparedRay prepared = prepare(ray, scene);
+    const PreparedRay prepared = prepare(ray);
     if (!intersect_triangle(prepared, triangle, prepared.t_max, hit)) continue;
     ++hits;
     outside += inside_box(ray, scene, triangle, hit) ? 0 : 1;
@@ -205,7 +205,7 @@ TEST_CASE("Hits agree with double arithmetic where the triangle is well-shaped")
     if (std::abs(edge) < 1e-4 || std::abs(t) < 1e-4) continue;
     ++compared;
     TriangleHit hit;
-    const PreparedRay prepared = prepare(ray, triangle.bounds());
+    const PreparedRay prepared = prepare(ray);
     const bool found = intersect_triangle(prepared, triangle, prepared.t_max, hit);
     REQUIRE(found == (edge > 0 && t > 0));
     if (!found) continue;
@@ -226,7 +226,7 @@ TEST_CASE("A ray does not hit the triangle whose corner or inside it leaves") {
                                   : Triangle{random.in_box(unit), random.in_box(unit), Vec3{0}};
     const Ray ray{triangle.a, 1e30F, random.in_box(unit), no_bundle};
     TriangleHit hit;
-    const PreparedRay prepared = prepare(ray, triangle.bounds());
+    const PreparedRay prepared = prepare(ray);
     self_hits += intersect_triangle(prepared, triangle, prepared.t_max, hit) ? 1 : 0;
   }
   CHECK(self_hits == 0);
@@ -244,7 +244,7 @@ TEST_CASE("What is hit from near a triangle's surface is in front, beyond doubt"
     Ray ray{triangle.a + f * (triangle.b - triangle.a) + g * (triangle.c - triangle.a), 1e30F,
             random.in_box(unit), no_bundle};
     ray.origin += std::ldexp(1.0F, -20 - static_cast<int>(random.below(6))) * random.in_box(unit);
-    const PreparedRay prepared = prepare(ray, triangle.bounds());
+    const PreparedRay prepared = prepare(ray);
     TriangleHit hit;
     if (!intersect_triangle(prepared, triangle, prepared.t_max, hit)) continue;
     ++hits;
@@ -263,16 +263,14 @@ TEST_CASE("A scene scaled by a power of two is hit at t scaled by it, to the las
     const float scale = std::ldexp(1.0F, k);
     Soup scaled = soup;
     for (Vec3& p : scaled.positions) p *= scale;
-    const Aabb scene = bounds_of(soup.triangles());
-    const Aabb scaled_scene = bounds_of(scaled.triangles());
     std::uint32_t different = 0;
     for (Ray ray : rays) {
       ray.t_max = 1e30F;
-      const PreparedRay prepared = prepare(ray, scene);
+      const PreparedRay prepared = prepare(ray);
       ray.origin *= scale;
-      const PreparedRay far = prepare(ray, scaled_scene);
+      const PreparedRay far = prepare(ray);
       ray.direction *= scale;
-      const PreparedRay longer = prepare(ray, scaled_scene);
+      const PreparedRay longer = prepare(ray);
       for (std::size_t i = 0; i < soup.indices.size(); ++i) {
         TriangleHit a;
         TriangleHit b;

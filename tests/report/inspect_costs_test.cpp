@@ -35,7 +35,7 @@ TEST_CASE("Every pixel's ray is counted as the accelerator counts it alone") {
   FilmSettings film;
   film.width = 24;
   film.height = 16;
-  const PictureCosts costs = measure_costs(build_bvh(triangles, all).bvh, bounds, camera, film);
+  const PictureCosts costs = measure_costs(build_bvh(triangles, all).bvh, camera, film);
   REQUIRE(costs.rays.size() == 24 * 16);
 
   const auto accelerator = make_global_bvh(triangles);

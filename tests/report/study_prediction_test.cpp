@@ -35,7 +35,7 @@ TEST_CASE("The cost of one leaf is known, and predicted exactly") {
   const Aabb bounds = bounds_of(mesh.triangles());
   const StudyArea area{"plane", StudyGroup::plane_axis,
                        make_plane_area({0, 5, 0}, {0, -1, 0}, {4, 4}, 10)};
-  StudySite site = make_site(mesh, bounds, area, 20'000, 1);
+  StudySite site = make_site(mesh, area, 20'000, 1);
   REQUIRE(site.subset.size() == 12);
   BinaryTree leaf;
   leaf.nodes.push_back({bounds, 0, 12});
@@ -61,7 +61,7 @@ TEST_CASE("PAH predicts what rays cost, within four standard errors") {
     for (const StudyArea& area : study_areas(bounds, false)) {
       CAPTURE(area.name);
       StudyResults results;
-      study_prediction(make_site(mesh, bounds, area, 20'000, 5), results);
+      study_prediction(make_site(mesh, area, 20'000, 5), results);
       for (const PredictionRow& row : results.predictions) {
         CAPTURE(row.measured, row.pah, row.standard_error);
         // Areas are rounded to float before they are summed.
@@ -82,7 +82,7 @@ TEST_CASE("Rays are uniform in the measure of their area") {
     const StudyMesh mesh = box_mesh(box.min, box.max);
     BinaryTree leaf;
     leaf.nodes.push_back({box, 0, 12});
-    const StudyTree tree{leaf, mesh.triangles(), {}, box, 4};
+    const StudyTree tree{leaf, mesh.triangles(), {}, 4};
     const double p = hit_probability(area, box);
     REQUIRE(p > 0.01);
     const double share = static_cast<double>(count_all(tree, rays).met) / 20'000;
@@ -95,7 +95,7 @@ TEST_CASE("The study's searches find what the renderer finds") {
   const Aabb bounds = bounds_of(mesh.triangles());
   for (const StudyArea& area : study_areas(bounds, false)) {
     CAPTURE(area.name);
-    const StudySite site = make_site(mesh, bounds, area, 2'000, 7);
+    const StudySite site = make_site(mesh, area, 2'000, 7);
     const LocalConfig config;
     const BuiltBvh built = build_local(site, config);
     std::vector<Ray> rays;
@@ -105,6 +105,6 @@ TEST_CASE("The study's searches find what the renderer finds") {
     std::uint64_t expected = 0;
     for (const Hit& hit : hits) expected += hit.valid() ? 1 : 0;
     CHECK(count_closest(site.on(built.tree, config.build), site.rays).hits == expected);
-    CHECK(kernel_cost(built.bvh, bounds, site.rays, 4) > 0);
+    CHECK(kernel_cost(built.bvh, site.rays, 4) > 0);
   }
 }

@@ -178,3 +178,40 @@ TEST_CASE("faults are named") {
   // Tiny scenes are fine.
   CHECK(message(scene_of(BoxShape{}, scaling(DVec3{1e-40}))).empty());
 }
+
+TEST_CASE("one distant object costs the others neither digits nor their place") {
+  Scene scene;
+  PerspectiveCamera camera;
+  camera.position = {0, 2, 6};
+  camera.look_at = {0, 1, 0};
+  scene.camera = camera;
+  scene.materials.emplace_back();
+  scene.meshes = {make_mesh(SphereShape{}), make_mesh(RectangleShape{})};
+  for (std::uint32_t i = 0; i < 2; ++i) {
+    Instance instance;
+    instance.mesh = i;
+    scene.instances.push_back(instance);
+  }
+  const World alone = make_world(scene);
+  CHECK(alone.warnings.empty());
+  CHECK(alone.origin == DVec3(0));  // the center
+  for (const DVec3& far : {DVec3(1e7, 0, 0), DVec3(1e7, 1e7, 1e7), DVec3(0, 0, -1e12)}) {
+    CAPTURE(far.x, far.y, far.z);
+    Scene with = scene;
+    with.instances.push_back(scene.instances[0]);
+    with.instances.back().world_from_object[3] = far;
+    const World world = make_world(with);
+    double error = 0;
+    for (std::size_t i = 0; i < alone.positions.size(); ++i)
+      error = std::max(error, glm::distance(DVec3(world.positions[i]) + world.origin,
+                                            DVec3(alone.positions[i]) + alone.origin));
+    CHECK(error < 2e-6);
+    REQUIRE(world.warnings.size() == 1);
+    CHECK_THAT(world.warnings[0], contains_text("the shape is lost"));
+  }
+  // A camera with a long lens does not take the origin along.
+  camera.position = {0, 0, 1e6};
+  camera.fov = 1e-4;
+  scene.camera = camera;
+  CHECK(make_world(scene).origin == DVec3(0));
+}

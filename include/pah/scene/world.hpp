@@ -1,8 +1,10 @@
-// A scene made ready for rays: all triangles in one float array about the scene's center.
+// A scene made ready for rays: all triangles in one float array about an origin amid the scene.
 #pragma once
 
 #include <pah/geometry/triangles.hpp>
 #include <pah/scene/scene.hpp>
+#include <string>
+#include <vector>
 
 namespace pah {
 
@@ -18,7 +20,8 @@ struct Surface {
 
 struct World {
   // Scene coordinates are origin + world coordinates. It is subtracted in double, before rounding
-  // to float, so a scene far from its origin loses nothing.
+  // to float, so a scene far from its origin loses nothing. It is the scene's center, or the
+  // camera's place or aim where something is so far away that the center is nowhere.
   DVec3 origin{0};
   std::vector<Vec3> positions;
   std::vector<Vec3> normals;  // per position; empty if no surface has normals
@@ -33,6 +36,8 @@ struct World {
   std::vector<Light> lights;
   std::vector<Material> materials;
   std::vector<Texture> textures;
+
+  std::vector<std::string> warnings;  // of what cannot be shown well, one sentence each
 
   [[nodiscard]] Triangles triangles() const { return {positions, indices}; }
   [[nodiscard]] std::uint64_t bytes() const;

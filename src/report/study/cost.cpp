@@ -17,7 +17,7 @@ double cpu_seconds() {
 
 void study_cost(const StudySite& site, const BuiltBvh& global,
                 std::span<const std::uint32_t> all_triangles, StudyResults& results) {
-  const StudyTree global_tree{global.tree, site.mesh.triangles(), all_triangles, site.bounds,
+  const StudyTree global_tree{global.tree, site.mesh.triangles(), all_triangles,
                               BuildConfig{}.side_by_side};
   const double global_cost = count_closest(global_tree, site.rays, false).mean_of_all();
   for (const Heuristic heuristic : {Heuristic::surface_area, Heuristic::projected_area}) {
@@ -33,7 +33,7 @@ void study_cost(const StudySite& site, const BuiltBvh& global,
       const Tally tally = count_closest(site.on(built.tree, config.build), site.rays);
       row.closest = tally.mean();
       row.all = count_all(site.on(built.tree, config.build), site.rays).mean();
-      row.kernel = kernel_cost(built.bvh, site.bounds, site.rays, config.build.side_by_side);
+      row.kernel = kernel_cost(built.bvh, site.rays, config.build.side_by_side);
       row.hit_share = tally.hit_share();
       row.break_even = global_cost > 0 ? tally.mean_of_all() / global_cost : 0;
       results.costs.push_back(row);

@@ -4,10 +4,9 @@
 
 namespace pah {
 
-StudySite make_site(const StudyMesh& mesh, const Aabb& bounds, StudyArea area, std::uint64_t rays,
-                    std::uint64_t seed) {
-  StudySite site{mesh, std::move(area), bounds, {}, {}};
-  site.subset = local_triangles(mesh.triangles(), bounds, site.area.area).subset;
+StudySite make_site(const StudyMesh& mesh, StudyArea area, std::uint64_t rays, std::uint64_t seed) {
+  StudySite site{mesh, std::move(area), {}, {}};
+  site.subset = local_triangles(mesh.triangles(), site.area.area).subset;
   site.rays = draw_rays(site.area.area, rays, seed);
   return site;
 }

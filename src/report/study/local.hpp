@@ -12,20 +12,19 @@ namespace pah {
 struct StudySite {
   const StudyMesh& mesh;
   StudyArea area;
-  Aabb bounds;                        // of the whole mesh
   std::vector<std::uint32_t> subset;  // triangles that can be hit in the region
   std::vector<BundleRay> rays;
 
   [[nodiscard]] StudyTree on(const BinaryTree& tree, const BuildConfig& config) const {
-    return {tree, mesh.triangles(), subset, bounds, config.side_by_side};
+    return {tree, mesh.triangles(), subset, config.side_by_side};
   }
   [[nodiscard]] StudyCase named(const LocalConfig& config) const {
     return {mesh.name, area.name, area.group, subset.size(), config.heuristic, config.split};
   }
 };
 
-[[nodiscard]] StudySite make_site(const StudyMesh& mesh, const Aabb& bounds, StudyArea area,
-                                  std::uint64_t rays, std::uint64_t seed);
+[[nodiscard]] StudySite make_site(const StudyMesh& mesh, StudyArea area, std::uint64_t rays,
+                                  std::uint64_t seed);
 
 [[nodiscard]] BuiltBvh build_local(const StudySite& site, const LocalConfig& config);
 

@@ -50,7 +50,7 @@ StudyResults run_study(const std::vector<StudyMesh>& meshes, const StudyConfig& 
                  mesh.name + ", " + areas[a].name);
       }
       // Areas of one mesh have rays of their own; the same area of two meshes may share them.
-      const StudySite site = make_site(mesh, bounds, areas[a], config.rays, config.seed + a);
+      const StudySite site = make_site(mesh, areas[a], config.rays, config.seed + a);
       study_prediction(site, results);
       if (!(results.predictions.back().measured > 0)) {
         results.predictions.resize(results.predictions.size() - 2);

@@ -57,7 +57,7 @@ Tally count_all(const StudyTree& on, const BundleRay& ray) {
 Tally count_closest(const StudyTree& on, const BundleRay& bundle_ray, bool within_region) {
   Ray from = ray_of(bundle_ray);
   if (!within_region) from.t_max = std::numeric_limits<float>::infinity();
-  const PreparedRay ray = prepare(from, on.scene);
+  const PreparedRay ray = prepare(from);
   const std::vector<BinaryTree::Node>& nodes = on.tree.nodes;
   struct Entry {
     std::uint32_t node;
@@ -144,12 +144,11 @@ Tally count_closest(const StudyTree& tree, std::span<const BundleRay> rays, bool
                   [&](const BundleRay& ray) { return count_closest(tree, ray, within_region); });
 }
 
-double kernel_cost(const Bvh& bvh, const Aabb& scene, std::span<const BundleRay> rays,
-                   std::uint32_t side_by_side) {
+double kernel_cost(const Bvh& bvh, std::span<const BundleRay> rays, std::uint32_t side_by_side) {
   std::vector<PreparedRay> prepared(rays.size());
   std::vector<Hit> hits(rays.size());
   for (std::size_t i = 0; i < rays.size(); ++i) {
-    prepared[i] = prepare(ray_of(rays[i]), scene);
+    prepared[i] = prepare(ray_of(rays[i]));
     hits[i].t = prepared[i].t_max;
   }
   TraversalCounts counts;

@@ -15,7 +15,6 @@ struct StudyTree {
   const BinaryTree& tree;
   Triangles triangles;
   std::span<const std::uint32_t> subset;
-  Aabb scene;  // of all triangles
   std::uint32_t side_by_side = 4;
 };
 
@@ -47,7 +46,7 @@ struct Tally {
 
 // The same by the renderer's kernels: one box cost for each node of up to eight children, one
 // triangle cost for every `side_by_side` triangles.
-[[nodiscard]] double kernel_cost(const Bvh& bvh, const Aabb& scene, std::span<const BundleRay> rays,
+[[nodiscard]] double kernel_cost(const Bvh& bvh, std::span<const BundleRay> rays,
                                  std::uint32_t side_by_side);
 
 }  // namespace pah

@@ -1,0 +1,73 @@
+#include "scene/origin.hpp"
+
+#include <algorithm>
+#include <variant>
+
+namespace pah {
+namespace {
+
+double largest_of(const DVec3& v) { return std::max(v.x, std::max(v.y, v.z)); }
+
+// The largest coordinate in the box, relative to `origin`: its float is off by 2^-24 of it.
+double reach(const Bounds& box, const DVec3& origin) {
+  return largest_of(glm::max(glm::abs(box.min - origin), glm::abs(box.max - origin)));
+}
+
+// How large the picture is at the box, in meters.
+double view_at(const Camera& camera, const Bounds& box) {
+  if (const auto* orthographic = std::get_if<OrthographicCamera>(&camera))
+    return orthographic->height;
+  const auto& perspective = std::get<PerspectiveCamera>(camera);
+  const DVec3 nearest = glm::clamp(perspective.position, box.min, box.max);
+  return glm::distance(perspective.position, nearest) * 2 *
+         std::tan(glm::radians(perspective.fov) / 2);
+}
+
+// How much an origin costs in precision: the error of the box that suffers most, over its size or
+// that of the picture there, whichever is larger.
+double harm_of(const DVec3& origin, const Camera& camera, std::span<const Bounds> boxes) {
+  double harm = 0;
+  for (const Bounds& box : boxes) {
+    const double size = std::max(largest_of(box.max - box.min), view_at(camera, box));
+    if (size > 0) harm = std::max(harm, reach(box, origin) / size);
+  }
+  return harm;
+}
+
+bool is_finite(const DVec3& v) {
+  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+}  // namespace
+
+DVec3 choose_origin(const Camera& camera, std::span<const Bounds> boxes) {
+  Bounds all;
+  for (const Bounds& box : boxes) all.extend(box);
+  const DVec3 center = all.center();
+  if (!is_finite(center)) return DVec3(0);
+  // Digits to spare: a mesh of a 64th of the scene loses nothing that shows.
+  constexpr double harmless = 64;
+  DVec3 best = center;
+  double harm = harm_of(center, camera, boxes) / harmless;
+  const auto consider = [&](const DVec3& origin) {
+    const double other = harm_of(origin, camera, boxes);
+    if (!is_finite(origin) || !(other < harm)) return;
+    best = origin;
+    harm = other;
+  };
+  std::visit(
+      [&](const auto& model) {
+        consider(model.position);
+        consider(model.look_at);
+      },
+      camera);
+  return best;
+}
+
+bool loses_shape(const Bounds& box, const DVec3& origin) {
+  // Fewer than 64 floats across are steps that one sees.
+  constexpr double spacing = 0x1p-23;
+  return largest_of(box.max - box.min) < 64 * spacing * reach(box, origin);
+}
+
+}  // namespace pah
