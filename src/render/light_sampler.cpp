@@ -13,8 +13,8 @@ namespace {
 
 constexpr float pi = std::numbers::pi_v<float>;
 
-// So few lights are cheaper asked one by one than through a tree, and chosen better.
-constexpr std::size_t few_lights = 16;
+// Past a depth that no sane set of lights reaches groups are halved.
+constexpr int max_unbalanced_depth = 16;
 
 constexpr std::uint32_t not_a_leaf = 0xFFFFFFFFU;
 
@@ -84,6 +84,51 @@ double split_cost(const LightBounds& bounds) {
   return static_cast<double>(bounds.intensity) * orientation * area;
 }
 
+// Sorts lights in two and tells how many are in the first part: at the best of some planes across
+// the boxes' centers, in halves where all centers agree.
+std::size_t split(std::span<LightSampler::Placed> lights) {
+  constexpr int bucket_count = 12;
+  Aabb centers;
+  for (const LightSampler::Placed& light : lights) centers.extend(light.bounds.box.center());
+  const auto bucket_of = [&](const LightSampler::Placed& light, int axis) {
+    const float relative =
+        (light.bounds.box.center()[axis] - centers.min[axis]) / centers.extent()[axis];
+    return std::clamp(static_cast<int>(relative * bucket_count), 0, bucket_count - 1);
+  };
+  double best = std::numeric_limits<double>::infinity();
+  int best_axis = -1, best_bucket = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (!(centers.extent()[axis] > 0)) continue;
+    std::array<LightBounds, bucket_count> buckets{};
+    for (const LightSampler::Placed& light : lights) {
+      LightBounds& bucket = buckets[static_cast<std::size_t>(bucket_of(light, axis))];
+      bucket = unite(bucket, light.bounds);
+    }
+    std::array<double, bucket_count> below{};
+    LightBounds running;
+    for (std::size_t i = 0; i + 1 < bucket_count; ++i) {
+      running = unite(running, buckets[i]);
+      below[i] = running.intensity > 0 ? split_cost(running) : 0;
+    }
+    running = {};
+    for (std::size_t i = bucket_count - 1; i > 0; --i) {
+      running = unite(running, buckets[i]);
+      const double cost = below[i - 1] + (running.intensity > 0 ? split_cost(running) : 0);
+      if (cost < best) {
+        best = cost;
+        best_axis = axis;
+        best_bucket = static_cast<int>(i);
+      }
+    }
+  }
+  if (best_axis < 0) return lights.size() / 2;
+  const auto above = std::stable_partition(
+      lights.begin(), lights.end(),
+      [&](const LightSampler::Placed& light) { return bucket_of(light, best_axis) < best_bucket; });
+  const auto below = static_cast<std::size_t>(above - lights.begin());
+  return below > 0 && below < lights.size() ? below : lights.size() / 2;
+}
+
 }  // namespace
 
 float importance(const LightBounds& bounds, const LitPoint& at) {
@@ -132,139 +177,111 @@ LightSampler::LightSampler(std::vector<Placed> placed, std::vector<Distant> dist
   if (placed.size() + distant_.size() == 1) {
     only_ = distant_.empty() ? placed.front().light : distant_.front().light;
   }
-  if (placed.size() <= few_lights) {
-    placed_ = std::move(placed);
-    return;
-  }
   leaf_of_light_.assign(lights, not_a_leaf);
-  nodes_.reserve(2 * placed.size() - 1);
-  build(placed, 0, 0);
+  nodes_.emplace_back();
+  add_children(0, placed, 0);
 }
 
-// Splits at the best of some planes across the boxes' centers; halves where all centers agree, and
-// past a depth that no sane set of lights reaches.
-std::uint32_t LightSampler::build(std::span<Placed> lights, std::uint32_t parent, int depth) {
-  const auto index = static_cast<std::uint32_t>(nodes_.size());
-  nodes_.push_back({lights.front().bounds, parent, 0, no_light});
-  if (lights.size() == 1) {
-    nodes_[index].light = lights.front().light;
-    leaf_of_light_[lights.front().light] = index;
-    return index;
-  }
-  constexpr int bucket_count = 12, max_unbalanced_depth = 64;
-  Aabb centers;
-  LightBounds all;
-  for (const Placed& light : lights) {
-    centers.extend(light.bounds.box.center());
-    all = unite(all, light.bounds);
-  }
-  const auto bucket_of = [&](const Placed& light, int axis) {
-    const float relative =
-        (light.bounds.box.center()[axis] - centers.min[axis]) / centers.extent()[axis];
-    return std::clamp(static_cast<int>(relative * bucket_count), 0, bucket_count - 1);
+// Splits the largest group until there are as many as a node has children.
+void LightSampler::add_children(std::uint32_t parent, std::span<Placed> lights, int depth) {
+  struct Group {
+    std::span<Placed> lights;
+    LightBounds bounds;
+    double cost = 0;  // 0: not to be split
   };
-  double best = std::numeric_limits<double>::infinity();
-  int best_axis = -1, best_bucket = 0;
-  for (int axis = 0; axis < 3; ++axis) {
-    if (!(centers.extent()[axis] > 0)) continue;
-    std::array<LightBounds, bucket_count> buckets{};
-    for (const Placed& light : lights) {
-      LightBounds& bucket = buckets[static_cast<std::size_t>(bucket_of(light, axis))];
-      bucket = unite(bucket, light.bounds);
-    }
-    std::array<double, bucket_count> below{};
-    LightBounds running;
-    for (std::size_t i = 0; i + 1 < bucket_count; ++i) {
-      running = unite(running, buckets[i]);
-      below[i] = running.intensity > 0 ? split_cost(running) : 0;
-    }
-    running = {};
-    for (std::size_t i = bucket_count - 1; i > 0; --i) {
-      running = unite(running, buckets[i]);
-      const double cost = below[i - 1] + (running.intensity > 0 ? split_cost(running) : 0);
-      if (cost < best) {
-        best = cost;
-        best_axis = axis;
-        best_bucket = static_cast<int>(i);
+  const auto group_of = [](std::span<Placed> members) {
+    Group group{members, members.front().bounds};
+    if (members.size() > 1) {
+      for (const Placed& light : members.subspan(1)) {
+        group.bounds = unite(group.bounds, light.bounds);
       }
+      group.cost = std::max(split_cost(group.bounds), std::numeric_limits<double>::min());
+    }
+    return group;
+  };
+  std::vector<Group> groups;
+  if (lights.size() <= most_children) {
+    for (std::size_t i = 0; i < lights.size(); ++i)
+      groups.push_back(group_of(lights.subspan(i, 1)));
+  } else {
+    groups.push_back(group_of(lights));
+    while (groups.size() < most_children) {
+      const auto largest = std::ranges::max_element(groups, {}, &Group::cost);
+      const std::span<Placed> members = largest->lights;
+      const std::size_t middle = depth < max_unbalanced_depth ? split(members) : members.size() / 2;
+      *largest = group_of(members.subspan(0, middle));
+      groups.push_back(group_of(members.subspan(middle)));
     }
   }
-  std::size_t middle = lights.size() / 2;
-  if (best_axis >= 0 && depth < max_unbalanced_depth) {
-    const auto split = std::stable_partition(
-        lights.begin(), lights.end(),
-        [&](const Placed& light) { return bucket_of(light, best_axis) < best_bucket; });
-    const auto left = static_cast<std::size_t>(split - lights.begin());
-    if (left > 0 && left < lights.size()) middle = left;
+  const auto first = static_cast<std::uint32_t>(nodes_.size());
+  nodes_[parent].first_child = first;
+  nodes_[parent].child_count = static_cast<std::uint32_t>(groups.size());
+  for (const Group& group : groups) nodes_.push_back({group.bounds, parent});
+  for (std::uint32_t i = 0; i < groups.size(); ++i) {
+    if (groups[i].lights.size() > 1) {
+      add_children(first + i, groups[i].lights, depth + 1);
+    } else {
+      nodes_[first + i].light = groups[i].lights.front().light;
+      leaf_of_light_[nodes_[first + i].light] = first + i;
+    }
   }
-  build(lights.subspan(0, middle), index, depth + 1);
-  const std::uint32_t second = build(lights.subspan(middle), index, depth + 1);
-  nodes_[index].bounds = all;
-  nodes_[index].second_child = second;
-  return index;
 }
 
-float LightSampler::placed_importance(const LitPoint& at) const {
-  if (!nodes_.empty()) return importance(nodes_.front().bounds, at);
+float LightSampler::weigh_children(const Node& node, const LitPoint& at,
+                                   Importances& importances) const {
   float sum = 0;
-  for (const Placed& light : placed_) sum += importance(light.bounds, at);
+  for (std::uint32_t i = 0; i < node.child_count; ++i) {
+    importances[i] = importance(nodes_[node.first_child + i].bounds, at);
+    sum += importances[i];
+  }
   return sum;
 }
 
 std::optional<LightChoice> LightSampler::choose(const LitPoint& at, float u) const {
   if (only_ != no_light) return LightChoice{only_, 1};
-  const float placed = placed_importance(at);
-  float total = placed;
+  const Node* node = &nodes_.front();
+  Importances importances;
+  float total = weigh_children(*node, at, importances);
   for (const Distant& light : distant_) total += importance(light.bounds, at);
   if (!(total > 0)) return std::nullopt;
 
   // Walk through the estimates laid end to end; the last positive one catches rounding.
   float remaining = u * total;
   LightChoice choice;
-  const auto take = [&](LightId light, float value) {
-    if (!(value > 0)) return false;
-    choice = {light, value / total};
-    if (remaining < value) return true;
-    remaining -= value;
-    return false;
-  };
   for (const Distant& light : distant_) {
-    if (take(light.light, importance(light.bounds, at))) return choice;
+    const float value = importance(light.bounds, at);
+    if (!(value > 0)) continue;
+    choice = {light.light, value / total};
+    if (remaining < value) return choice;
+    remaining -= value;
   }
-  if (nodes_.empty()) {
-    for (const Placed& light : placed_) {
-      if (take(light.light, importance(light.bounds, at))) return choice;
+  float probability = 1;
+  for (;;) {
+    const Node* chosen = nullptr;
+    float value = 0;
+    for (std::uint32_t i = 0; i < node->child_count; ++i) {
+      if (!(importances[i] > 0)) continue;
+      chosen = &nodes_[node->first_child + i];
+      value = importances[i];
+      if (remaining < value) break;
+      remaining -= value;
     }
-    return choice;
+    if (chosen == nullptr) return choice;
+    probability *= value / total;
+    if (chosen->child_count == 0) return LightChoice{chosen->light, probability};
+    const float rest = std::min(remaining / value, 0x1.fffffep-1F);
+    node = chosen;
+    total = weigh_children(*node, at, importances);
+    if (!(total > 0)) return std::nullopt;
+    remaining = rest * total;
   }
-  if (!(placed > 0)) return choice;
-
-  float probability = placed / total;
-  float rest = std::min(remaining / placed, 0x1.fffffep-1F);
-  std::uint32_t index = 0;
-  while (nodes_[index].second_child != 0) {
-    const std::uint32_t first = index + 1, second = nodes_[index].second_child;
-    const float a = importance(nodes_[first].bounds, at);
-    const float b = importance(nodes_[second].bounds, at);
-    if (!(a + b > 0)) return std::nullopt;
-    const float share = a / (a + b);
-    if (rest < share) {
-      rest = std::min(rest / share, 0x1.fffffep-1F);
-      probability *= share;
-      index = first;
-    } else {
-      rest = std::min((rest - share) / (1 - share), 0x1.fffffep-1F);
-      probability *= b / (a + b);
-      index = second;
-    }
-  }
-  return LightChoice{nodes_[index].light, probability};
 }
 
 float LightSampler::probability(const LitPoint& at, LightId light) const {
   if (only_ != no_light) return light == only_ ? 1 : 0;
-  const float placed = placed_importance(at);
-  float total = placed, own = 0;
+  Importances importances;
+  float own = 0;
+  float total = weigh_children(nodes_.front(), at, importances);
   for (const Distant& other : distant_) {
     const float value = importance(other.bounds, at);
     total += value;
@@ -272,21 +289,13 @@ float LightSampler::probability(const LitPoint& at, LightId light) const {
   }
   if (!(total > 0)) return 0;
   if (own > 0) return own / total;
-  if (nodes_.empty()) {
-    for (const Placed& other : placed_) {
-      if (other.light == light) return importance(other.bounds, at) / total;
-    }
-    return 0;
-  }
   if (leaf_of_light_[light] == not_a_leaf) return 0;
-  float probability = placed / total;
+  float probability = 1;
   for (std::uint32_t index = leaf_of_light_[light]; index != 0; index = nodes_[index].parent) {
-    const std::uint32_t parent = nodes_[index].parent;
-    const float a = importance(nodes_[parent + 1].bounds, at);
-    const float b = importance(nodes_[nodes_[parent].second_child].bounds, at);
-    const float value = index == parent + 1 ? a : b;
+    const float value = importance(nodes_[index].bounds, at);
     if (!(value > 0)) return 0;
-    probability *= value / (a + b);
+    const std::uint32_t parent = nodes_[index].parent;
+    probability *= value / (parent == 0 ? total : weigh_children(nodes_[parent], at, importances));
   }
   return probability;
 }

@@ -7,6 +7,7 @@
 // al., Physically Based Rendering (4th ed.), 12.6.3.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <pah/geometry/aabb.hpp>
 #include <pah/scene/mesh.hpp>
@@ -64,7 +65,7 @@ class LightSampler {
   // Lights without power are left out by the caller; each light occurs once, ids below `lights`.
   LightSampler(std::vector<Placed> placed, std::vector<Distant> distant, std::size_t lights);
 
-  [[nodiscard]] bool empty() const { return distant_.empty() && placed_.empty() && nodes_.empty(); }
+  [[nodiscard]] bool empty() const { return distant_.empty() && nodes_.size() <= 1; }
 
   // The light to ask where there is no choice, or no_light.
   [[nodiscard]] LightId only() const { return only_; }
@@ -74,20 +75,25 @@ class LightSampler {
   [[nodiscard]] float probability(const LitPoint& at, LightId light) const;
 
  private:
+  static constexpr std::size_t most_children = 64;
+
   struct Node {
     LightBounds bounds;
     std::uint32_t parent = 0;
-    std::uint32_t second_child = 0;  // the first is the next node; 0 marks a leaf
+    std::uint32_t first_child = 0;
+    std::uint32_t child_count = 0;  // 0 marks a leaf
     LightId light = no_light;
   };
+  using Importances = std::array<float, most_children>;
 
-  std::uint32_t build(std::span<Placed> lights, std::uint32_t parent, int depth);
-  [[nodiscard]] float placed_importance(const LitPoint& at) const;
+  void add_children(std::uint32_t parent, std::span<Placed> lights, int depth);
+  // Fills in the importance of each child; their sum.
+  [[nodiscard]] float weigh_children(const Node& node, const LitPoint& at,
+                                     Importances& importances) const;
 
   LightId only_ = no_light;  // if there is just one, there is nothing to choose
   std::vector<Distant> distant_;
-  std::vector<Placed> placed_;  // if there are few: no tree then
-  std::vector<Node> nodes_;
+  std::vector<Node> nodes_;  // the first is the root
   std::vector<std::uint32_t> leaf_of_light_;
 };
 
