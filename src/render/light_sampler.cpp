@@ -6,30 +6,19 @@
 #include <limits>
 #include <numbers>
 
-#include "render/spawn.hpp"
-
 namespace pah {
 namespace {
 
 constexpr float pi = std::numbers::pi_v<float>;
 
+// So few lights are weighed one by one. More are divided into groups, and those again until they
+// are small, so that some are ruled out as a whole.
+constexpr std::size_t few_lights = 64, small_group = 16, most_groups = 8;
+
 // Past a depth that no sane set of lights reaches groups are halved.
 constexpr int max_unbalanced_depth = 16;
 
 constexpr std::uint32_t not_a_leaf = 0xFFFFFFFFU;
-
-// Leaves room to sum many of them.
-constexpr float largest_importance = 1e30F;
-
-float sine_of(float cosine) { return std::sqrt(std::max(0.0F, 1 - cosine * cosine)); }
-
-// The cosine of max(0, a - b), and its sine, of angles in [0, pi].
-float cos_of_difference(float sin_a, float cos_a, float sin_b, float cos_b) {
-  return cos_a > cos_b ? 1 : cos_a * cos_b + sin_a * sin_b;
-}
-float sin_of_difference(float sin_a, float cos_a, float sin_b, float cos_b) {
-  return cos_a > cos_b ? 0 : sin_a * cos_b - cos_a * sin_b;
-}
 
 float safe_acos(float x) { return std::acos(std::clamp(x, -1.0F, 1.0F)); }
 
@@ -131,46 +120,6 @@ std::size_t split(std::span<LightSampler::Placed> lights) {
 
 }  // namespace
 
-float importance(const LightBounds& bounds, const LitPoint& at) {
-  if (bounds.intensity == 0) return 0;
-  const Vec3 half = 0.5F * bounds.box.extent();
-  const float radius2 = glm::dot(half, half);
-  const Vec3 to_light = bounds.box.center() - at.position;
-  const float center2 = glm::dot(to_light, to_light);
-  // Within its own sphere a light's irradiance stops growing.
-  const float falloff = 1 / std::max(center2, radius2);
-  const float value = std::min(bounds.intensity * falloff, largest_importance);
-  if (center2 <= radius2) return value;
-
-  const Vec3 w = to_light / std::sqrt(center2);
-  const float sin2_b = radius2 / center2;  // of the cone that the box's sphere fills
-  const float sin_b = std::sqrt(sin2_b), cos_b = std::sqrt(1 - sin2_b);
-
-  float cos_w = -glm::dot(bounds.axis, w);
-  if (bounds.two_sided) cos_w = std::abs(cos_w);
-  const float sin_w = sine_of(cos_w);
-  const float sin_o = sine_of(bounds.cos_theta_o);
-  const float cos_x = cos_of_difference(sin_w, cos_w, sin_o, bounds.cos_theta_o);
-  const float sin_x = sin_of_difference(sin_w, cos_w, sin_o, bounds.cos_theta_o);
-  const float cos_emission = cos_of_difference(sin_x, cos_x, sin_b, cos_b);
-  if (cos_emission + rounding_bound(16) < bounds.cos_theta_e) return 0;
-
-  float cos_i = glm::dot(w, at.normal);
-  if (at.transmits) cos_i = std::abs(cos_i);
-  const float cos_incidence = cos_of_difference(sine_of(cos_i), cos_i, sin_b, cos_b);
-  if (cos_incidence <= 0) return 0;
-  return value * std::max(cos_emission, 0.0F) * cos_incidence;
-}
-
-float importance(const DistantBounds& bounds, const LitPoint& at) {
-  if (bounds.angle >= pi) return bounds.irradiance;
-  float cos_i = glm::dot(bounds.axis, at.normal);
-  if (at.transmits) cos_i = std::abs(cos_i);
-  const float cosine =
-      cos_of_difference(sine_of(cos_i), cos_i, std::sin(bounds.angle), std::cos(bounds.angle));
-  return std::max(0.0F, cosine) * bounds.irradiance;
-}
-
 LightSampler::LightSampler(std::vector<Placed> placed, std::vector<Distant> distant,
                            std::size_t lights)
     : distant_(std::move(distant)) {
@@ -182,7 +131,7 @@ LightSampler::LightSampler(std::vector<Placed> placed, std::vector<Distant> dist
   add_children(0, placed, 0);
 }
 
-// Splits the largest group until there are as many as a node has children.
+// Splits the costliest group until there are as many as a node has.
 void LightSampler::add_children(std::uint32_t parent, std::span<Placed> lights, int depth) {
   struct Group {
     std::span<Placed> lights;
@@ -200,12 +149,12 @@ void LightSampler::add_children(std::uint32_t parent, std::span<Placed> lights, 
     return group;
   };
   std::vector<Group> groups;
-  if (lights.size() <= most_children) {
+  if (lights.size() <= (parent == 0 ? few_lights : small_group)) {
     for (std::size_t i = 0; i < lights.size(); ++i)
       groups.push_back(group_of(lights.subspan(i, 1)));
   } else {
     groups.push_back(group_of(lights));
-    while (groups.size() < most_children) {
+    while (groups.size() < most_groups) {
       const auto largest = std::ranges::max_element(groups, {}, &Group::cost);
       const std::span<Placed> members = largest->lights;
       const std::size_t middle = depth < max_unbalanced_depth ? split(members) : members.size() / 2;
@@ -216,8 +165,13 @@ void LightSampler::add_children(std::uint32_t parent, std::span<Placed> lights, 
   const auto first = static_cast<std::uint32_t>(nodes_.size());
   nodes_[parent].first_child = first;
   nodes_[parent].child_count = static_cast<std::uint32_t>(groups.size());
-  for (const Group& group : groups) nodes_.push_back({group.bounds, parent});
+  nodes_.resize(first + groups.size());
+  packed_.resize(packed_size * nodes_.size());
+  for (std::size_t i = 0; i < groups.size(); ++i) {
+    pack(groups[i].bounds, i, std::span(packed_).subspan(packed_size * first));
+  }
   for (std::uint32_t i = 0; i < groups.size(); ++i) {
+    nodes_[first + i].parent = parent;
     if (groups[i].lights.size() > 1) {
       add_children(first + i, groups[i].lights, depth + 1);
     } else {
@@ -227,21 +181,36 @@ void LightSampler::add_children(std::uint32_t parent, std::span<Placed> lights, 
   }
 }
 
-float LightSampler::weigh_children(const Node& node, const LitPoint& at,
-                                   Importances& importances) const {
-  float sum = 0;
-  for (std::uint32_t i = 0; i < node.child_count; ++i) {
-    importances[i] = importance(nodes_[node.first_child + i].bounds, at);
-    sum += importances[i];
+LightSampler::Cut LightSampler::cut_below(std::uint32_t node, const LitPoint& at) const {
+  Cut cut;
+  const auto open = [&](const Node& opened) {
+    std::array<float, few_lights> values;
+    const std::size_t count = opened.child_count;
+    importances(std::span(packed_).subspan(packed_size * opened.first_child, packed_size * count),
+                at, values.data());
+    for (std::uint32_t child = 0; child < count; ++child) {
+      const float value = values[child];
+      if (!(value > 0)) continue;
+      cut.nodes[cut.size] = opened.first_child + child;
+      cut.importances[cut.size] = value;
+      ++cut.size;
+    }
+  };
+  open(nodes_[node]);
+  for (std::uint32_t i = 0; i < cut.size; ++i) {
+    const Node& group = nodes_[cut.nodes[i]];
+    if (group.child_count == 0 || cut.size + group.child_count > cut.nodes.size()) continue;
+    cut.importances[i] = 0;
+    open(group);
   }
-  return sum;
+  for (std::uint32_t i = 0; i < cut.size; ++i) cut.sum += cut.importances[i];
+  return cut;
 }
 
 std::optional<LightChoice> LightSampler::choose(const LitPoint& at, float u) const {
   if (only_ != no_light) return LightChoice{only_, 1};
-  const Node* node = &nodes_.front();
-  Importances importances;
-  float total = weigh_children(*node, at, importances);
+  Cut cut = cut_below(0, at);
+  float total = cut.sum;
   for (const Distant& light : distant_) total += importance(light.bounds, at);
   if (!(total > 0)) return std::nullopt;
 
@@ -255,33 +224,31 @@ std::optional<LightChoice> LightSampler::choose(const LitPoint& at, float u) con
     if (remaining < value) return choice;
     remaining -= value;
   }
+  if (!(cut.sum > 0)) return choice;
   float probability = 1;
   for (;;) {
-    const Node* chosen = nullptr;
+    std::uint32_t chosen = 0;
     float value = 0;
-    for (std::uint32_t i = 0; i < node->child_count; ++i) {
-      if (!(importances[i] > 0)) continue;
-      chosen = &nodes_[node->first_child + i];
-      value = importances[i];
+    for (std::uint32_t i = 0; i < cut.size; ++i) {
+      if (!(cut.importances[i] > 0)) continue;
+      chosen = cut.nodes[i];
+      value = cut.importances[i];
       if (remaining < value) break;
       remaining -= value;
     }
-    if (chosen == nullptr) return choice;
     probability *= value / total;
-    if (chosen->child_count == 0) return LightChoice{chosen->light, probability};
-    const float rest = std::min(remaining / value, 0x1.fffffep-1F);
-    node = chosen;
-    total = weigh_children(*node, at, importances);
+    if (nodes_[chosen].child_count == 0) return LightChoice{nodes_[chosen].light, probability};
+    cut = cut_below(chosen, at);
+    total = cut.sum;
     if (!(total > 0)) return std::nullopt;
-    remaining = rest * total;
+    remaining = std::min(remaining / value, 0x1.fffffep-1F) * total;
   }
 }
 
 float LightSampler::probability(const LitPoint& at, LightId light) const {
   if (only_ != no_light) return light == only_ ? 1 : 0;
-  Importances importances;
-  float own = 0;
-  float total = weigh_children(nodes_.front(), at, importances);
+  Cut cut = cut_below(0, at);
+  float total = cut.sum, own = 0;
   for (const Distant& other : distant_) {
     const float value = importance(other.bounds, at);
     total += value;
@@ -289,15 +256,27 @@ float LightSampler::probability(const LitPoint& at, LightId light) const {
   }
   if (!(total > 0)) return 0;
   if (own > 0) return own / total;
-  if (leaf_of_light_[light] == not_a_leaf) return 0;
+  const std::uint32_t leaf = leaf_of_light_[light];
+  if (leaf == not_a_leaf) return 0;
   float probability = 1;
-  for (std::uint32_t index = leaf_of_light_[light]; index != 0; index = nodes_[index].parent) {
-    const float value = importance(nodes_[index].bounds, at);
-    if (!(value > 0)) return 0;
-    const std::uint32_t parent = nodes_[index].parent;
-    probability *= value / (parent == 0 ? total : weigh_children(nodes_[parent], at, importances));
+  for (;;) {
+    // The one of the cut that holds the light.
+    std::uint32_t holder = leaf;
+    float value = 0;
+    for (std::uint32_t index = leaf; index != 0 && value == 0; index = nodes_[index].parent) {
+      for (std::uint32_t i = 0; i < cut.size; ++i) {
+        if (cut.nodes[i] == index && cut.importances[i] > 0) {
+          holder = index;
+          value = cut.importances[i];
+        }
+      }
+    }
+    if (value == 0) return 0;
+    probability *= value / total;
+    if (holder == leaf) return probability;
+    cut = cut_below(holder, at);
+    total = cut.sum;
   }
-  return probability;
 }
 
 }  // namespace pah

@@ -88,4 +88,7 @@ TEST_CASE("a choice among many spots varies little more than one that weighs eac
   CHECK(variance_over_exact(spots_over_floor(1), {12, 12}) < 1.5);
   CHECK(variance_over_exact(load_scene(source_folder() / "scenes/many_spots.yaml").scene, {9, 9}) <
         1.5);
+  CHECK(variance_over_exact(spots_over_floor(2), {24, 12}) < 1.5);
+  CHECK(variance_over_exact(spots_over_floor(5), {60, 12}) < 1.5);
+  CHECK(variance_over_exact(spots_over_floor(20), {240, 12}) < 1.5);
 }
