@@ -1,4 +1,4 @@
-// The choice among more lights than are weighed one by one.
+// The choice among more lights than a few, and what it weighs them by.
 #include <numeric>
 #include <pah/io/load_scene.hpp>
 
@@ -91,4 +91,32 @@ TEST_CASE("a choice among many spots varies little more than one that weighs eac
   CHECK(variance_over_exact(spots_over_floor(2), {24, 12}) < 1.5);
   CHECK(variance_over_exact(spots_over_floor(5), {60, 12}) < 1.5);
   CHECK(variance_over_exact(spots_over_floor(20), {240, 12}) < 1.5);
+}
+
+TEST_CASE("lights side by side are weighed as each alone, to the last bit, and never as NaN") {
+  for (std::uint32_t trial = 0; trial < 2000; ++trial) {
+    Sampler sampler(0, 0, trial, 3);
+    const auto any_point = [&] {
+      const Vec2 xy = sampler.next_2d();
+      return 2.0F * Vec3(xy, sampler.next_1d()) - 1.0F;
+    };
+    const LitPoint at{any_point(), glm::normalize(any_point()), trial % 3 == 0};
+    std::vector<LightBounds> bounds(1 + trial % 9);
+    std::vector<float> packed(packed_size * bounds.size()), together(bounds.size());
+    for (std::size_t i = 0; i < bounds.size(); ++i) {
+      bounds[i].box.extend(trial % 4 == 0 ? at.position : any_point());
+      if (i % 2 == 0) bounds[i].box.extend(any_point());
+      bounds[i].axis = glm::normalize(any_point());
+      bounds[i].cos_theta_o = 2 * sampler.next_1d() - 1;
+      bounds[i].cos_theta_e = 2 * sampler.next_1d() - 1;
+      bounds[i].two_sided = i % 3 == 0;
+      bounds[i].intensity = trial % 5 == 0 ? 1e38F : sampler.next_1d();
+      pack(bounds[i], i, packed);
+    }
+    importances(packed, at, together.data());
+    for (std::size_t i = 0; i < bounds.size(); ++i) {
+      REQUIRE(together[i] == importance(bounds[i], at));
+      REQUIRE(std::isfinite(together[i]));
+    }
+  }
 }
