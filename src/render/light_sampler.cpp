@@ -6,30 +6,19 @@
 #include <limits>
 #include <numbers>
 
-#include "render/spawn.hpp"
-
 namespace pah {
 namespace {
 
 constexpr float pi = std::numbers::pi_v<float>;
 
-// So few lights are cheaper asked one by one than through a tree, and chosen better.
-constexpr std::size_t few_lights = 16;
+// So few lights are weighed one by one. More are divided into groups, and those again until they
+// are small, so that some are ruled out as a whole.
+constexpr std::size_t few_lights = 64, small_group = 16, most_groups = 8;
+
+// Past a depth that no sane set of lights reaches groups are halved.
+constexpr int max_unbalanced_depth = 16;
 
 constexpr std::uint32_t not_a_leaf = 0xFFFFFFFFU;
-
-// Leaves room to sum many of them.
-constexpr float largest_importance = 1e30F;
-
-float sine_of(float cosine) { return std::sqrt(std::max(0.0F, 1 - cosine * cosine)); }
-
-// The cosine of max(0, a - b), and its sine, of angles in [0, pi].
-float cos_of_difference(float sin_a, float cos_a, float sin_b, float cos_b) {
-  return cos_a > cos_b ? 1 : cos_a * cos_b + sin_a * sin_b;
-}
-float sin_of_difference(float sin_a, float cos_a, float sin_b, float cos_b) {
-  return cos_a > cos_b ? 0 : sin_a * cos_b - cos_a * sin_b;
-}
 
 float safe_acos(float x) { return std::acos(std::clamp(x, -1.0F, 1.0F)); }
 
@@ -84,81 +73,13 @@ double split_cost(const LightBounds& bounds) {
   return static_cast<double>(bounds.intensity) * orientation * area;
 }
 
-}  // namespace
-
-float importance(const LightBounds& bounds, const LitPoint& at) {
-  if (bounds.intensity == 0) return 0;
-  const Vec3 half = 0.5F * bounds.box.extent();
-  const float radius2 = glm::dot(half, half);
-  const Vec3 to_light = bounds.box.center() - at.position;
-  const float center2 = glm::dot(to_light, to_light);
-  // Within its own sphere a light's irradiance stops growing.
-  const float falloff = 1 / std::max(center2, radius2);
-  const float value = std::min(bounds.intensity * falloff, largest_importance);
-  if (center2 <= radius2) return value;
-
-  const Vec3 w = to_light / std::sqrt(center2);
-  const float sin2_b = radius2 / center2;  // of the cone that the box's sphere fills
-  const float sin_b = std::sqrt(sin2_b), cos_b = std::sqrt(1 - sin2_b);
-
-  float cos_w = -glm::dot(bounds.axis, w);
-  if (bounds.two_sided) cos_w = std::abs(cos_w);
-  const float sin_w = sine_of(cos_w);
-  const float sin_o = sine_of(bounds.cos_theta_o);
-  const float cos_x = cos_of_difference(sin_w, cos_w, sin_o, bounds.cos_theta_o);
-  const float sin_x = sin_of_difference(sin_w, cos_w, sin_o, bounds.cos_theta_o);
-  const float cos_emission = cos_of_difference(sin_x, cos_x, sin_b, cos_b);
-  if (cos_emission + rounding_bound(16) < bounds.cos_theta_e) return 0;
-
-  float cos_i = glm::dot(w, at.normal);
-  if (at.transmits) cos_i = std::abs(cos_i);
-  const float cos_incidence = cos_of_difference(sine_of(cos_i), cos_i, sin_b, cos_b);
-  if (cos_incidence <= 0) return 0;
-  return value * std::max(cos_emission, 0.0F) * cos_incidence;
-}
-
-float importance(const DistantBounds& bounds, const LitPoint& at) {
-  if (bounds.angle >= pi) return bounds.irradiance;
-  float cos_i = glm::dot(bounds.axis, at.normal);
-  if (at.transmits) cos_i = std::abs(cos_i);
-  const float cosine =
-      cos_of_difference(sine_of(cos_i), cos_i, std::sin(bounds.angle), std::cos(bounds.angle));
-  return std::max(0.0F, cosine) * bounds.irradiance;
-}
-
-LightSampler::LightSampler(std::vector<Placed> placed, std::vector<Distant> distant,
-                           std::size_t lights)
-    : distant_(std::move(distant)) {
-  if (placed.size() + distant_.size() == 1) {
-    only_ = distant_.empty() ? placed.front().light : distant_.front().light;
-  }
-  if (placed.size() <= few_lights) {
-    placed_ = std::move(placed);
-    return;
-  }
-  leaf_of_light_.assign(lights, not_a_leaf);
-  nodes_.reserve(2 * placed.size() - 1);
-  build(placed, 0, 0);
-}
-
-// Splits at the best of some planes across the boxes' centers; halves where all centers agree, and
-// past a depth that no sane set of lights reaches.
-std::uint32_t LightSampler::build(std::span<Placed> lights, std::uint32_t parent, int depth) {
-  const auto index = static_cast<std::uint32_t>(nodes_.size());
-  nodes_.push_back({lights.front().bounds, parent, 0, no_light});
-  if (lights.size() == 1) {
-    nodes_[index].light = lights.front().light;
-    leaf_of_light_[lights.front().light] = index;
-    return index;
-  }
-  constexpr int bucket_count = 12, max_unbalanced_depth = 64;
+// Sorts lights in two and tells how many are in the first part: at the best of some planes across
+// the boxes' centers, in halves where all centers agree.
+std::size_t split(std::span<LightSampler::Placed> lights) {
+  constexpr int bucket_count = 12;
   Aabb centers;
-  LightBounds all;
-  for (const Placed& light : lights) {
-    centers.extend(light.bounds.box.center());
-    all = unite(all, light.bounds);
-  }
-  const auto bucket_of = [&](const Placed& light, int axis) {
+  for (const LightSampler::Placed& light : lights) centers.extend(light.bounds.box.center());
+  const auto bucket_of = [&](const LightSampler::Placed& light, int axis) {
     const float relative =
         (light.bounds.box.center()[axis] - centers.min[axis]) / centers.extent()[axis];
     return std::clamp(static_cast<int>(relative * bucket_count), 0, bucket_count - 1);
@@ -168,7 +89,7 @@ std::uint32_t LightSampler::build(std::span<Placed> lights, std::uint32_t parent
   for (int axis = 0; axis < 3; ++axis) {
     if (!(centers.extent()[axis] > 0)) continue;
     std::array<LightBounds, bucket_count> buckets{};
-    for (const Placed& light : lights) {
+    for (const LightSampler::Placed& light : lights) {
       LightBounds& bucket = buckets[static_cast<std::size_t>(bucket_of(light, axis))];
       bucket = unite(bucket, light.bounds);
     }
@@ -189,82 +110,145 @@ std::uint32_t LightSampler::build(std::span<Placed> lights, std::uint32_t parent
       }
     }
   }
-  std::size_t middle = lights.size() / 2;
-  if (best_axis >= 0 && depth < max_unbalanced_depth) {
-    const auto split = std::stable_partition(
-        lights.begin(), lights.end(),
-        [&](const Placed& light) { return bucket_of(light, best_axis) < best_bucket; });
-    const auto left = static_cast<std::size_t>(split - lights.begin());
-    if (left > 0 && left < lights.size()) middle = left;
-  }
-  build(lights.subspan(0, middle), index, depth + 1);
-  const std::uint32_t second = build(lights.subspan(middle), index, depth + 1);
-  nodes_[index].bounds = all;
-  nodes_[index].second_child = second;
-  return index;
+  if (best_axis < 0) return lights.size() / 2;
+  const auto above = std::stable_partition(
+      lights.begin(), lights.end(),
+      [&](const LightSampler::Placed& light) { return bucket_of(light, best_axis) < best_bucket; });
+  const auto below = static_cast<std::size_t>(above - lights.begin());
+  return below > 0 && below < lights.size() ? below : lights.size() / 2;
 }
 
-float LightSampler::placed_importance(const LitPoint& at) const {
-  if (!nodes_.empty()) return importance(nodes_.front().bounds, at);
-  float sum = 0;
-  for (const Placed& light : placed_) sum += importance(light.bounds, at);
-  return sum;
+}  // namespace
+
+LightSampler::LightSampler(std::vector<Placed> placed, std::vector<Distant> distant,
+                           std::size_t lights)
+    : distant_(std::move(distant)) {
+  if (placed.size() + distant_.size() == 1) {
+    only_ = distant_.empty() ? placed.front().light : distant_.front().light;
+  }
+  leaf_of_light_.assign(lights, not_a_leaf);
+  nodes_.emplace_back();
+  add_children(0, placed, 0);
+}
+
+// Splits the costliest group until there are as many as a node has.
+void LightSampler::add_children(std::uint32_t parent, std::span<Placed> lights, int depth) {
+  struct Group {
+    std::span<Placed> lights;
+    LightBounds bounds;
+    double cost = 0;  // 0: not to be split
+  };
+  const auto group_of = [](std::span<Placed> members) {
+    Group group{members, members.front().bounds};
+    if (members.size() > 1) {
+      for (const Placed& light : members.subspan(1)) {
+        group.bounds = unite(group.bounds, light.bounds);
+      }
+      group.cost = std::max(split_cost(group.bounds), std::numeric_limits<double>::min());
+    }
+    return group;
+  };
+  std::vector<Group> groups;
+  if (lights.size() <= (parent == 0 ? few_lights : small_group)) {
+    for (std::size_t i = 0; i < lights.size(); ++i)
+      groups.push_back(group_of(lights.subspan(i, 1)));
+  } else {
+    groups.push_back(group_of(lights));
+    while (groups.size() < most_groups) {
+      const auto largest = std::ranges::max_element(groups, {}, &Group::cost);
+      const std::span<Placed> members = largest->lights;
+      const std::size_t middle = depth < max_unbalanced_depth ? split(members) : members.size() / 2;
+      *largest = group_of(members.subspan(0, middle));
+      groups.push_back(group_of(members.subspan(middle)));
+    }
+  }
+  const auto first = static_cast<std::uint32_t>(nodes_.size());
+  nodes_[parent].first_child = first;
+  nodes_[parent].child_count = static_cast<std::uint32_t>(groups.size());
+  nodes_.resize(first + groups.size());
+  packed_.resize(packed_size * nodes_.size());
+  for (std::size_t i = 0; i < groups.size(); ++i) {
+    pack(groups[i].bounds, i, std::span(packed_).subspan(packed_size * first));
+  }
+  for (std::uint32_t i = 0; i < groups.size(); ++i) {
+    nodes_[first + i].parent = parent;
+    if (groups[i].lights.size() > 1) {
+      add_children(first + i, groups[i].lights, depth + 1);
+    } else {
+      nodes_[first + i].light = groups[i].lights.front().light;
+      leaf_of_light_[nodes_[first + i].light] = first + i;
+    }
+  }
+}
+
+LightSampler::Cut LightSampler::cut_below(std::uint32_t node, const LitPoint& at) const {
+  Cut cut;
+  const auto open = [&](const Node& opened) {
+    std::array<float, few_lights> values;
+    const std::size_t count = opened.child_count;
+    importances(std::span(packed_).subspan(packed_size * opened.first_child, packed_size * count),
+                at, values.data());
+    for (std::uint32_t child = 0; child < count; ++child) {
+      const float value = values[child];
+      if (!(value > 0)) continue;
+      cut.nodes[cut.size] = opened.first_child + child;
+      cut.importances[cut.size] = value;
+      ++cut.size;
+    }
+  };
+  open(nodes_[node]);
+  for (std::uint32_t i = 0; i < cut.size; ++i) {
+    const Node& group = nodes_[cut.nodes[i]];
+    if (group.child_count == 0 || cut.size + group.child_count > cut.nodes.size()) continue;
+    cut.importances[i] = 0;
+    open(group);
+  }
+  for (std::uint32_t i = 0; i < cut.size; ++i) cut.sum += cut.importances[i];
+  return cut;
 }
 
 std::optional<LightChoice> LightSampler::choose(const LitPoint& at, float u) const {
   if (only_ != no_light) return LightChoice{only_, 1};
-  const float placed = placed_importance(at);
-  float total = placed;
+  Cut cut = cut_below(0, at);
+  float total = cut.sum;
   for (const Distant& light : distant_) total += importance(light.bounds, at);
   if (!(total > 0)) return std::nullopt;
 
   // Walk through the estimates laid end to end; the last positive one catches rounding.
   float remaining = u * total;
   LightChoice choice;
-  const auto take = [&](LightId light, float value) {
-    if (!(value > 0)) return false;
-    choice = {light, value / total};
-    if (remaining < value) return true;
-    remaining -= value;
-    return false;
-  };
   for (const Distant& light : distant_) {
-    if (take(light.light, importance(light.bounds, at))) return choice;
+    const float value = importance(light.bounds, at);
+    if (!(value > 0)) continue;
+    choice = {light.light, value / total};
+    if (remaining < value) return choice;
+    remaining -= value;
   }
-  if (nodes_.empty()) {
-    for (const Placed& light : placed_) {
-      if (take(light.light, importance(light.bounds, at))) return choice;
+  if (!(cut.sum > 0)) return choice;
+  float probability = 1;
+  for (;;) {
+    std::uint32_t chosen = 0;
+    float value = 0;
+    for (std::uint32_t i = 0; i < cut.size; ++i) {
+      if (!(cut.importances[i] > 0)) continue;
+      chosen = cut.nodes[i];
+      value = cut.importances[i];
+      if (remaining < value) break;
+      remaining -= value;
     }
-    return choice;
+    probability *= value / total;
+    if (nodes_[chosen].child_count == 0) return LightChoice{nodes_[chosen].light, probability};
+    cut = cut_below(chosen, at);
+    total = cut.sum;
+    if (!(total > 0)) return std::nullopt;
+    remaining = std::min(remaining / value, 0x1.fffffep-1F) * total;
   }
-  if (!(placed > 0)) return choice;
-
-  float probability = placed / total;
-  float rest = std::min(remaining / placed, 0x1.fffffep-1F);
-  std::uint32_t index = 0;
-  while (nodes_[index].second_child != 0) {
-    const std::uint32_t first = index + 1, second = nodes_[index].second_child;
-    const float a = importance(nodes_[first].bounds, at);
-    const float b = importance(nodes_[second].bounds, at);
-    if (!(a + b > 0)) return std::nullopt;
-    const float share = a / (a + b);
-    if (rest < share) {
-      rest = std::min(rest / share, 0x1.fffffep-1F);
-      probability *= share;
-      index = first;
-    } else {
-      rest = std::min((rest - share) / (1 - share), 0x1.fffffep-1F);
-      probability *= b / (a + b);
-      index = second;
-    }
-  }
-  return LightChoice{nodes_[index].light, probability};
 }
 
 float LightSampler::probability(const LitPoint& at, LightId light) const {
   if (only_ != no_light) return light == only_ ? 1 : 0;
-  const float placed = placed_importance(at);
-  float total = placed, own = 0;
+  Cut cut = cut_below(0, at);
+  float total = cut.sum, own = 0;
   for (const Distant& other : distant_) {
     const float value = importance(other.bounds, at);
     total += value;
@@ -272,23 +256,27 @@ float LightSampler::probability(const LitPoint& at, LightId light) const {
   }
   if (!(total > 0)) return 0;
   if (own > 0) return own / total;
-  if (nodes_.empty()) {
-    for (const Placed& other : placed_) {
-      if (other.light == light) return importance(other.bounds, at) / total;
+  const std::uint32_t leaf = leaf_of_light_[light];
+  if (leaf == not_a_leaf) return 0;
+  float probability = 1;
+  for (;;) {
+    // The one of the cut that holds the light.
+    std::uint32_t holder = leaf;
+    float value = 0;
+    for (std::uint32_t index = leaf; index != 0 && value == 0; index = nodes_[index].parent) {
+      for (std::uint32_t i = 0; i < cut.size; ++i) {
+        if (cut.nodes[i] == index && cut.importances[i] > 0) {
+          holder = index;
+          value = cut.importances[i];
+        }
+      }
     }
-    return 0;
+    if (value == 0) return 0;
+    probability *= value / total;
+    if (holder == leaf) return probability;
+    cut = cut_below(holder, at);
+    total = cut.sum;
   }
-  if (leaf_of_light_[light] == not_a_leaf) return 0;
-  float probability = placed / total;
-  for (std::uint32_t index = leaf_of_light_[light]; index != 0; index = nodes_[index].parent) {
-    const std::uint32_t parent = nodes_[index].parent;
-    const float a = importance(nodes_[parent + 1].bounds, at);
-    const float b = importance(nodes_[nodes_[parent].second_child].bounds, at);
-    const float value = index == parent + 1 ? a : b;
-    if (!(value > 0)) return 0;
-    probability *= value / (a + b);
-  }
-  return probability;
 }
 
 }  // namespace pah

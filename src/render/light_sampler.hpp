@@ -1,48 +1,22 @@
 // Which light to ask: in proportion to an estimate of what each contributes at the shading point.
 //
-// The estimate is an unoccluded irradiance, so that the choice does not depend on the unit of
-// length. Lights with a place stand in a binary tree whose nodes bound them; with few of them every
-// leaf is asked, with many one child is chosen at a time. After Conty Estevez & Kulla, "Importance
-// Sampling of Many Lights with Adaptive Tree Splitting" (HPG 2018), with the bounds of Pharr et
-// al., Physically Based Rendering (4th ed.), 12.6.3.
+// Lights with a place stand in a tree whose nodes bound them. One estimate for a group is a poor
+// guide where few of its lights reach a point, as spots do: it draws groups of which none does. So
+// groups are opened until no more fit in a small list, and only then one is drawn: few lights, and
+// those of many that are left once groups out of reach are ruled out, are each weighed by
+// themselves. After Conty Estevez & Kulla, "Importance Sampling of Many Lights with Adaptive Tree
+// Splitting" (HPG 2018).
 #pragma once
 
+#include <array>
 #include <optional>
-#include <pah/geometry/aabb.hpp>
 #include <pah/scene/mesh.hpp>
 #include <span>
 #include <vector>
 
+#include "render/light_importance.hpp"
+
 namespace pah {
-
-// The point that is lit.
-struct LitPoint {
-  Vec3 position{0};
-  Vec3 normal{0};          // of the shaded side, of unit length
-  bool transmits = false;  // light from behind counts too
-};
-
-// Where a light, or a group of them, is, and where it shines: at angles up to theta_o from the
-// axis in full, fading within a further theta_e.
-struct LightBounds {
-  Aabb box;
-  Vec3 axis{0, 0, 1};
-  float cos_theta_o = 1;
-  float cos_theta_e = 1;
-  bool two_sided = false;
-  float intensity = 0;  // W/sr at the brightest, mean of the channels
-};
-
-// A light at infinity.
-struct DistantBounds {
-  Vec3 axis{0, 0, 1};    // towards the light, of unit length
-  float angle = 0;       // half-angle of its cone, radians; pi: light from everywhere
-  float irradiance = 0;  // on a surface that faces it, mean of the channels
-};
-
-// Upper bounds in shape, estimates in size: zero only where nothing arrives. W/m2.
-[[nodiscard]] float importance(const LightBounds& bounds, const LitPoint& at);
-[[nodiscard]] float importance(const DistantBounds& bounds, const LitPoint& at);
 
 struct LightChoice {
   LightId light = no_light;
@@ -64,7 +38,7 @@ class LightSampler {
   // Lights without power are left out by the caller; each light occurs once, ids below `lights`.
   LightSampler(std::vector<Placed> placed, std::vector<Distant> distant, std::size_t lights);
 
-  [[nodiscard]] bool empty() const { return distant_.empty() && placed_.empty() && nodes_.empty(); }
+  [[nodiscard]] bool empty() const { return distant_.empty() && nodes_.size() <= 1; }
 
   // The light to ask where there is no choice, or no_light.
   [[nodiscard]] LightId only() const { return only_; }
@@ -74,20 +48,30 @@ class LightSampler {
   [[nodiscard]] float probability(const LitPoint& at, LightId light) const;
 
  private:
+  static constexpr std::size_t most_in_cut = 64;
+
   struct Node {
-    LightBounds bounds;
     std::uint32_t parent = 0;
-    std::uint32_t second_child = 0;  // the first is the next node; 0 marks a leaf
+    std::uint32_t first_child = 0;
+    std::uint32_t child_count = 0;  // 0 marks a leaf
     LightId light = no_light;
   };
+  // Nodes below another that together hold each of its lights that may reach a point.
+  struct Cut {
+    std::array<std::uint32_t, most_in_cut> nodes;
+    std::array<float, most_in_cut> importances;  // 0 where the node's children are listed instead
+    std::uint32_t size = 0;
+    float sum = 0;
+  };
 
-  std::uint32_t build(std::span<Placed> lights, std::uint32_t parent, int depth);
-  [[nodiscard]] float placed_importance(const LitPoint& at) const;
+  void add_children(std::uint32_t parent, std::span<Placed> lights, int depth);
+  // Groups are opened breadth first, as far as there is room.
+  [[nodiscard]] Cut cut_below(std::uint32_t node, const LitPoint& at) const;
 
   LightId only_ = no_light;  // if there is just one, there is nothing to choose
   std::vector<Distant> distant_;
-  std::vector<Placed> placed_;  // if there are few: no tree then
-  std::vector<Node> nodes_;
+  std::vector<Node> nodes_;    // the first is the root
+  std::vector<float> packed_;  // the bounds of the nodes, those of the children of one together
   std::vector<std::uint32_t> leaf_of_light_;
 };
 

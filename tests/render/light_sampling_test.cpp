@@ -208,7 +208,7 @@ Scene many_lights(int count) {
 }  // namespace
 
 TEST_CASE("choosing a light: probabilities are those of the choice and leave no light out") {
-  for (const int count : {9, 200}) {
+  for (const int count : {9, 200, 1000}) {
     const Scene scene = many_lights(count);
     const World world = make_world(scene);
     const TextureStore textures(world.textures);
