@@ -11,6 +11,7 @@
 #include "image/srgb.hpp"
 #include "io/extension.hpp"
 #include "io/output_file.hpp"
+#include "scene/texture_file.hpp"
 
 namespace pah {
 namespace {
@@ -228,39 +229,29 @@ void write_image(const fs::path& file, const std::vector<ImageLayer>& layers,
 }
 
 Image read_image(const fs::path& file, std::uint64_t max_bytes) {
-  std::error_code error;
-  const fs::file_status status = fs::status(file, error);
-  if (!fs::exists(status)) fail_to_read(file, "it does not exist");
-  if (!fs::is_regular_file(status)) fail_to_read(file, "it is not a file");
   try {
-    // The decoders allocate what the header asks for.
-    const std::uint64_t megabytes = std::max<std::uint64_t>(max_bytes >> 20, 1);
-    OIIO::attribute("limits:imagesize_MB",
-                    static_cast<int>(std::min<std::uint64_t>(megabytes, 1U << 30)));
-    const auto in = OIIO::ImageInput::open(file.string());
-    if (!in) fail_to_read(file, or_unknown(OIIO::geterror()));
-    const OIIO::ImageSpec& spec = in->spec();
-    if (spec.width <= 0 || spec.height <= 0 || spec.depth > 1 || spec.nchannels < 1 || spec.deep)
-      fail_to_read(file, "it is not a flat picture");
-    const std::uint64_t pixels =
-        static_cast<std::uint64_t>(spec.width) * static_cast<std::uint64_t>(spec.height);
+    const OpenPicture picture = open_picture(file, max_bytes);
+    const OIIO::ImageSpec& spec = picture.spec;
+    const std::uint64_t pixels = spec.image_pixels();
     if (pixels > max_bytes / sizeof(Vec3))
       fail_to_read(file, std::to_string(spec.width) + " x " + std::to_string(spec.height) +
-                             " pixels are more than " + std::to_string(megabytes) + " MB");
+                             " pixels are more than " + std::to_string(max_bytes >> 20) + " MiB");
     const auto [first, color] = channels_of(spec);
     const bool srgb = color && (spec.format == OIIO::TypeUInt8 || spec.format == OIIO::TypeUInt16);
 
     Image image{spec.width, spec.height, std::vector<Vec3>(pixels)};
     const OIIO::stride_t stride = sizeof(Vec3);
-    if (!in->read_image(0, 0, first, first + (color ? 3 : 1), OIIO::TypeFloat, image.pixels.data(),
-                        stride))
-      fail_to_read(file, or_unknown(in->geterror()));
+    if (!picture.input->read_image(0, 0, first, first + (color ? 3 : 1), OIIO::TypeFloat,
+                                   image.pixels.data(), stride))
+      fail_to_read(file, reason_of(*picture.input));
     for (Vec3& pixel : image.pixels) {
       if (!color) pixel = Vec3(pixel.x);
       if (srgb)
         for (int k = 0; k < 3; ++k) pixel[k] = linear_from_srgb(pixel[k]);
     }
     return image;
+  } catch (const PictureError& error) {
+    fail_to_read(file, error.what());
   } catch (const std::bad_alloc&) {
     fail_to_read(file, "out of memory");
   }

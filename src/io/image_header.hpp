@@ -8,15 +8,16 @@
 namespace pah {
 
 struct ImageHeader {
-  int width = 0, height = 0, depth = 0, channels = 0;
-  std::uint64_t pixels = 0;
-  std::uint64_t bytes = 0;  // when decoded as they are stored
+  int width = 0, height = 0;
 };
 
-// Throws FileError, with the reader's own words or none.
-[[nodiscard]] ImageHeader read_image_header(const std::filesystem::path& file);
+// Throws FileError, saying what is wrong without naming the file: also if the picture takes more
+// than `max_bytes` as floats.
+[[nodiscard]] ImageHeader read_image_header(const std::filesystem::path& file,
+                                            std::uint64_t max_bytes);
 
 // The values of the first channel, row by row from the top. Throws FileError likewise.
-[[nodiscard]] std::vector<float> read_first_channel(const std::filesystem::path& file);
+[[nodiscard]] std::vector<float> read_first_channel(const std::filesystem::path& file,
+                                                    std::uint64_t max_bytes);
 
 }  // namespace pah
