@@ -17,6 +17,7 @@
 #include "cli/inspect_command.hpp"
 #include "cli/render_command.hpp"
 #include "cli/study_command.hpp"
+#include "scene/texture_store.hpp"
 
 namespace pah::cli {
 namespace {
@@ -254,6 +255,9 @@ int main(int argc, char** argv) {
   } catch (const pah::SceneError& errors) {
     for (const pah::LocatedError& error : errors.errors())
       fmt::print(stderr, "{}\n", pah::format_error(error));
+    return end(ExitCode::scene_error);
+  } catch (const pah::TextureError& error) {  // found by loading, unless the file has changed since
+    fmt::print(stderr, "pahrender: {}\n", error.what());
     return end(ExitCode::scene_error);
   } catch (const pah::FileError& error) {
     fmt::print(stderr, "pahrender: {}\n", error.what());

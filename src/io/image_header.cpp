@@ -4,6 +4,7 @@
 
 #include <new>
 #include <pah/io/errors.hpp>
+#include <stdexcept>
 
 #include "scene/texture_file.hpp"
 
@@ -18,6 +19,8 @@ auto guarded(const Read& read) {
     throw FileError(error.what());
   } catch (const std::bad_alloc&) {
     throw FileError("it takes more memory than there is");
+  } catch (const std::length_error&) {
+    throw FileError("it takes more memory than there can be");
   }
 }
 
@@ -27,6 +30,14 @@ ImageHeader read_image_header(const std::filesystem::path& file, std::uint64_t m
   return guarded([&] {
     const OpenPicture picture = open_picture(file, max_bytes);
     return ImageHeader{picture.spec.width, picture.spec.height};
+  });
+}
+
+void check_image_file(const std::filesystem::path& file, std::uint64_t max_bytes) {
+  guarded([&] {
+    const OpenPicture picture = open_picture(file, max_bytes);
+    check_complete(picture);
+    read_through(picture);
   });
 }
 

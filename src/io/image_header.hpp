@@ -1,4 +1,4 @@
-// What a picture that a scene names is like, read without decoding it.
+// What a picture that a scene names is like, and whether it can be read.
 #pragma once
 
 #include <cstdint>
@@ -15,6 +15,9 @@ struct ImageHeader {
 // than `max_bytes` as floats.
 [[nodiscard]] ImageHeader read_image_header(const std::filesystem::path& file,
                                             std::uint64_t max_bytes);
+
+// Reads the whole picture, and keeps nothing of it. Throws FileError likewise.
+void check_image_file(const std::filesystem::path& file, std::uint64_t max_bytes);
 
 // The values of the first channel, row by row from the top. Throws FileError likewise.
 [[nodiscard]] std::vector<float> read_first_channel(const std::filesystem::path& file,

@@ -35,10 +35,14 @@ const PictureFormat& format_of(std::string_view head) {
   return *format;
 }
 
+std::string described_bytes(std::uint64_t bytes) {
+  return bytes >> 20U > 0 ? std::to_string(bytes >> 20U) + " MiB"
+                          : std::to_string(bytes) + " bytes";
+}
+
 std::string read_bytes(const fs::path& file, std::uint64_t max_bytes) {
   const std::uintmax_t size = fs::file_size(file);
-  if (size > max_bytes)
-    throw PictureError("it has more than " + std::to_string(max_bytes >> 20) + " MiB");
+  if (size > max_bytes) throw PictureError("it has more than " + described_bytes(max_bytes));
   std::string bytes(size, '\0');
   std::ifstream stream(file, std::ios::binary);
   stream.read(bytes.data(), static_cast<std::streamsize>(size));
@@ -50,7 +54,7 @@ std::string read_bytes(const fs::path& file, std::uint64_t max_bytes) {
                                std::uint64_t max_bytes) {
   throw PictureError(std::to_string(width) + " x " + std::to_string(height) + " pixels of " +
                      std::to_string(channels) + (channels == 1 ? " channel" : " channels") +
-                     " are more than " + std::to_string(max_bytes >> 20) + " MiB as floats");
+                     " are more than " + described_bytes(max_bytes) + " as floats");
 }
 
 // Some readers make room for what the header claims as soon as they open the file.
@@ -144,6 +148,26 @@ void check_complete(const OpenPicture& picture) {
   // Rows are stored from the top or from the bottom.
   if (!read(0, 0) || !read(spec.width - 1, spec.height - 1))
     throw PictureError(reason_of(*picture.input));
+}
+
+void read_through(const OpenPicture& picture) {
+  const OIIO::ImageSpec& spec = picture.spec;
+  // A row of tiles, or as many rows as an EXR file's blocks have at most.
+  const int step = spec.tile_width > 0 ? spec.tile_height : 256;
+  std::vector<float> values;
+  for (int row = 0; row < spec.height; row += step) {
+    const int first = spec.y + row, last = spec.y + std::min(row + step, spec.height);
+    values.resize(static_cast<std::size_t>(spec.width) * static_cast<std::size_t>(last - first) *
+                  static_cast<std::size_t>(spec.nchannels));
+    const bool read =
+        spec.tile_width > 0
+            ? picture.input->read_tiles(0, 0, spec.x, spec.x + spec.width, first, last, spec.z,
+                                        spec.z + 1, 0, spec.nchannels, OIIO::TypeFloat,
+                                        values.data())
+            : picture.input->read_scanlines(0, 0, first, last, spec.z, 0, spec.nchannels,
+                                            OIIO::TypeFloat, values.data());
+    if (!read) throw PictureError(reason_of(*picture.input));
+  }
 }
 
 std::string reason_of(const OIIO::ImageInput& input) {

@@ -39,6 +39,9 @@ struct OpenPicture {
 // A file that ends early shows in the row that it stores last. Throws PictureError.
 void check_complete(const OpenPicture& picture);
 
+// Decodes everything, a part at a time. Throws PictureError.
+void read_through(const OpenPicture& picture);
+
 // The first line of the reader's own words, or "it is damaged" if it has none.
 [[nodiscard]] std::string reason_of(const OIIO::ImageInput& input);
 

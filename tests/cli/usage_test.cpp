@@ -3,6 +3,7 @@
 
 #include "catch.hpp"
 #include "program.hpp"
+#include "support/picture_bytes.hpp"
 #include "support/temporary_folder.hpp"
 
 using namespace pah::testing;
@@ -106,6 +107,14 @@ TEST_CASE("a wrong override is an error of the scene") {
   write_file("scene.yaml", small_scene);
   check_failure({"scene.yaml", "-D", "render.sampels=4"}, 3, "sampels");
   check_failure({"scene.yaml", "-D", "film.width=-3"}, 3, "width");
+}
+
+TEST_CASE("a picture that ends early is an error of the scene, with and without --check") {
+  const CurrentTemporaryFolder folder;
+  write_file("sky.tga", pah::test::tga(4, 4, "too few"));
+  write_file("scene.yaml", "lights: [{type: environment, image: sky.tga}]\n");
+  check_failure({"scene.yaml"}, 3, "scene.yaml:1:37: error: cannot read image 'sky.tga'");
+  check_failure({"scene.yaml", "--check"}, 3, "scene.yaml:1:37: error: cannot read image");
 }
 
 TEST_CASE("switch --check loads and writes nothing") {

@@ -1,6 +1,5 @@
 // The textures section, and colors and scalars that a texture may stand for.
 #include "image/srgb.hpp"
-#include "io/image_header.hpp"
 #include "io/scene/reading.hpp"
 
 namespace pah {
@@ -11,7 +10,7 @@ using Kind = YamlNode::Kind;
 std::optional<std::filesystem::path> open_image(SceneReading& reading, const YamlNode& node,
                                                 const ValueName& name) {
   auto file = reading.files.open(reading.context, node, name, reading.limits.image_bytes);
-  if (!file || !check_image(reading, node.mark, *file)) return {};
+  if (file) reading.pictures.emplace(*file, node.mark);
   return file;
 }
 
@@ -99,18 +98,6 @@ bool parse_hex_color(const std::string& text, Vec3& value) {
 }
 
 }  // namespace
-
-// The decoded size comes from the header alone: nothing is decoded here.
-bool check_image(SceneReading& reading, const Mark& mark, const std::filesystem::path& file) {
-  try {
-    (void)read_image_header(file, reading.limits.image_bytes);
-    return true;
-  } catch (const FileError& error) {
-    reading.context.errors.add(
-        mark, "cannot read image '" + file.filename().string() + "': " + error.what());
-    return false;
-  }
-}
 
 std::optional<TextureId> image_texture(SceneReading& reading, const YamlNode& node,
                                        const ValueName& name, ColorSpace color_space) {
