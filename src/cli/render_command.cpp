@@ -140,6 +140,9 @@ ExitCode run_render(const RenderArguments& arguments) {
   LoadedScene loaded = load_scene(arguments.scene, {arguments.overrides, {}});
   Scene& scene = loaded.scene;
   apply(arguments, scene);
+  if (!arguments.quiet)
+    for (const LocatedError& warning : loaded.warnings)
+      fmt::print(stderr, "{}\n", format_warning(warning));
   if (arguments.check) {
     if (!arguments.quiet) fmt::print(stderr, "{}: no errors\n", arguments.scene.string());
     return ExitCode::done;

@@ -25,20 +25,23 @@ std::string indent_to(const std::string& excerpt, int column) {
   return indent;
 }
 
-}  // namespace
-
-std::string format_error(const LocatedError& error) {
+std::string formatted(const LocatedError& error, const std::string& kind) {
   const Location& at = error.where;
   std::string text = at.file;
   if (at.line > 0) text += ":" + std::to_string(at.line);
   if (at.line > 0 && at.column > 0) text += ":" + std::to_string(at.column);
-  text += ": error: " + printable(error.message);
+  text += ": " + kind + ": " + printable(error.message);
   if (error.excerpt.empty()) return text;
   text += "\n  " + printable(error.excerpt);
   const int caret = error.caret > 0 ? error.caret : at.column;
   if (caret > 0) text += "\n  " + indent_to(error.excerpt, caret) + "^";
   return text;
 }
+
+}  // namespace
+
+std::string format_error(const LocatedError& error) { return formatted(error, "error"); }
+std::string format_warning(const LocatedError& warning) { return formatted(warning, "warning"); }
 
 SceneError::SceneError(std::vector<LocatedError> errors)
     : std::runtime_error(errors.empty() ? "error in the scene" : format_error(errors.front())),

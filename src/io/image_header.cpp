@@ -33,11 +33,11 @@ ImageHeader read_image_header(const std::filesystem::path& file, std::uint64_t m
   });
 }
 
-void check_image_file(const std::filesystem::path& file, std::uint64_t max_bytes) {
-  guarded([&] {
+std::uint64_t check_image_file(const std::filesystem::path& file, std::uint64_t max_bytes) {
+  return guarded([&] {
     const OpenPicture picture = open_picture(file, max_bytes);
     check_complete(picture);
-    read_through(picture);
+    return count_unusable(picture);
   });
 }
 

@@ -16,8 +16,10 @@ struct ImageHeader {
 [[nodiscard]] ImageHeader read_image_header(const std::filesystem::path& file,
                                             std::uint64_t max_bytes);
 
-// Reads the whole picture, and keeps nothing of it. Throws FileError likewise.
-void check_image_file(const std::filesystem::path& file, std::uint64_t max_bytes);
+// Reads the whole picture, and keeps nothing of it; how many of its values are not finite, or as
+// good as infinite, and will be taken for 0. Throws FileError likewise.
+[[nodiscard]] std::uint64_t check_image_file(const std::filesystem::path& file,
+                                             std::uint64_t max_bytes);
 
 // The values of the first channel, row by row from the top. Throws FileError likewise.
 [[nodiscard]] std::vector<float> read_first_channel(const std::filesystem::path& file,

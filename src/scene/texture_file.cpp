@@ -1,6 +1,7 @@
 #include "scene/texture_file.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <new>
 #include <vector>
@@ -150,11 +151,12 @@ void check_complete(const OpenPicture& picture) {
     throw PictureError(reason_of(*picture.input));
 }
 
-void read_through(const OpenPicture& picture) {
+std::uint64_t count_unusable(const OpenPicture& picture) {
   const OIIO::ImageSpec& spec = picture.spec;
   // A row of tiles, or as many rows as an EXR file's blocks have at most.
   const int step = spec.tile_width > 0 ? spec.tile_height : 256;
   std::vector<float> values;
+  std::uint64_t count = 0;
   for (int row = 0; row < spec.height; row += step) {
     const int first = spec.y + row, last = spec.y + std::min(row + step, spec.height);
     values.resize(static_cast<std::size_t>(spec.width) * static_cast<std::size_t>(last - first) *
@@ -167,7 +169,19 @@ void read_through(const OpenPicture& picture) {
             : picture.input->read_scanlines(0, 0, first, last, spec.z, 0, spec.nchannels,
                                             OIIO::TypeFloat, values.data());
     if (!read) throw PictureError(reason_of(*picture.input));
+    count += clear_unusable(values);
   }
+  return count;
+}
+
+std::uint64_t clear_unusable(std::span<float> values) {
+  std::uint64_t count = 0;
+  for (float& value : values) {
+    if (std::abs(value) <= 0x1p100F) continue;
+    value = 0;
+    ++count;
+  }
+  return count;
 }
 
 std::string reason_of(const OIIO::ImageInput& input) {

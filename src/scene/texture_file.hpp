@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <span>
 #include <stdexcept>
 #include <string>
 
@@ -39,8 +40,11 @@ struct OpenPicture {
 // A file that ends early shows in the row that it stores last. Throws PictureError.
 void check_complete(const OpenPicture& picture);
 
-// Decodes everything, a part at a time. Throws PictureError.
-void read_through(const OpenPicture& picture);
+// Decodes everything, a part at a time; how many values are unusable. Throws PictureError.
+[[nodiscard]] std::uint64_t count_unusable(const OpenPicture& picture);
+
+// Sets to 0 what is no number, infinite, or so large that products of it soon are; how many.
+std::uint64_t clear_unusable(std::span<float> values);
 
 // The first line of the reader's own words, or "it is damaged" if it has none.
 [[nodiscard]] std::string reason_of(const OIIO::ImageInput& input);

@@ -89,14 +89,15 @@ class PictureInput final : public OIIO::ImageInput {
   template <class Read>
   bool deliver(std::size_t count, void* data, const Read& read) {
     const std::size_t values = count * static_cast<std::size_t>(m_spec.nchannels);
-    if (srgb_) texels_.resize(values);
-    const bool done = srgb_ ? read(OIIO::TypeFloat, texels_.data()) : read(m_spec.format, data);
-    if (!done) {
+    const bool as_stored = !srgb_ && !m_spec.format.is_floating_point();
+    if (!as_stored) texels_.resize(values);
+    if (!(as_stored ? read(m_spec.format, data) : read(OIIO::TypeFloat, texels_.data()))) {
       errorfmt("{}", reason_of(*picture_.input));
       return false;
     }
-    if (!srgb_) return true;
-    decode_srgb(texels_.data(), count, m_spec.nchannels, m_spec.alpha_channel);
+    if (as_stored) return true;
+    clear_unusable(texels_);
+    if (srgb_) decode_srgb(texels_.data(), count, m_spec.nchannels, m_spec.alpha_channel);
     return OIIO::convert_types(OIIO::TypeFloat, texels_.data(), m_spec.format, data,
                                static_cast<int>(values));
   }

@@ -189,6 +189,7 @@ Image TextureStore::Impl::read_whole(TextureId id, const ImageTexture& texture) 
   std::vector<float> texels(width * height * channels);
   if (!opened.input->read_image(0, 0, 0, opened.spec.nchannels, OIIO::TypeFloat, texels.data()))
     throw PictureError(reason_of(*opened.input));
+  clear_unusable(texels);
   if (entries[id].image.srgb)
     decode_srgb(texels.data(), width * height, opened.spec.nchannels, opened.spec.alpha_channel);
   Image image{opened.spec.width, opened.spec.height, {}};

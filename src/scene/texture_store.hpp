@@ -41,8 +41,8 @@ class TextureStore {
 
   // The texture about (u, v), v = 0 being the image's bottom row, averaged over a footprint given
   // in texture coordinates (0: the finest level, interpolated). Images without alpha have alpha 1;
-  // one-channel images are gray. Where the file fails to decode, or the coordinates are not finite:
-  // black.
+  // one-channel images are gray. What is not finite in the file is 0. Where the file fails to
+  // decode, or the coordinates are not finite: black.
   [[nodiscard]] Vec4 sample(TextureId id, Vec2 uv, TextureUse use = TextureUse::color,
                             Vec2 footprint = Vec2{0}) const noexcept;
 

@@ -117,6 +117,16 @@ TEST_CASE("a picture that ends early is an error of the scene, with and without 
   check_failure({"scene.yaml", "--check"}, 3, "scene.yaml:1:37: error: cannot read image");
 }
 
+TEST_CASE("a picture with infinite values is warned of, unless --quiet") {
+  const CurrentTemporaryFolder folder;
+  write_file("sky.hdr", "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 1\n\xFF\xFF\xFF\xFF");
+  write_file("scene.yaml", "lights: [{type: environment, image: sky.hdr}]\n");
+  const Outcome outcome = run({"scene.yaml", "--check"});
+  CHECK(outcome.exit_code == 0);
+  CHECK(contains(outcome.err, "scene.yaml:1:37: warning: image 'sky.hdr' has 3 values"));
+  CHECK(run({"scene.yaml", "--check", "--quiet"}).err.empty());
+}
+
 TEST_CASE("switch --check loads and writes nothing") {
   const CurrentTemporaryFolder folder;
   write_file("scene.yaml", small_scene);

@@ -29,6 +29,21 @@ TEST_CASE("a picture that cannot be decoded is an error where it is first named"
   CHECK(errors_with(test::tga(4, 4, "too few")).starts_with(where));
 }
 
+TEST_CASE("what is no number in a picture is counted") {
+  const TemporaryFolder folder;
+  // RGBE, not packed: 2 x 1 pixels, the second as large as can be.
+  write_text(folder / "a.hdr", "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 2\n" +
+                                   std::string("\x80\x80\x80\x81\xFF\xFF\0\xFF", 8));
+  const auto scene = write_text(folder / "scene.yaml", "textures: {t: {type: image, file: a.hdr}}");
+  const LoadedScene loaded = load_scene(scene);
+  REQUIRE(loaded.warnings.size() == 1);
+  CHECK(loaded.warnings[0].where.line == 1);
+  CHECK(loaded.warnings[0].where.column == 35);
+  CHECK(loaded.warnings[0].message ==
+        "image 'a.hdr' has 2 values that are infinite, too large or not a number; they count as 0");
+  CHECK_THAT(format_warning(loaded.warnings[0]), contains_text("scene.yaml:1:35: warning: image"));
+}
+
 TEST_CASE("the limit is of a picture as floats") {
   LoadOptions options;
   options.limits.image_bytes = 1000;

@@ -1,11 +1,14 @@
 // Bytes of every kind under the names of pictures.
 #include "scene/texture_file.hpp"
 
+#include <cmath>
 #include <fstream>
 #include <random>
 
 #include "catch.hpp"
+#include "image/srgb.hpp"
 #include "scene/texture_formats.hpp"
+#include "scene/texture_store.hpp"
 #include "support/picture_bytes.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -134,6 +137,30 @@ TEST_CASE("damaged bytes of every format are refused or read") {
       for (int k = 0; k < 1 + trial % 5; ++k)
         bytes[4 + rng() % (bytes.size() - 4)] = static_cast<char>(rng());
       (void)fault_of(bytes, "a.png", 1 << 20);
+    }
+  }
+}
+
+TEST_CASE("what is no number in a file is black") {
+  const TemporaryFolder folder;
+  const std::string file = (folder / "a.exr").string();
+  const std::vector<float> values{NAN, INFINITY, -INFINITY, 2e30F, 0.5F};
+  const auto out = OIIO::ImageOutput::create(file);
+  REQUIRE(out->open(file, OIIO::ImageSpec(5, 1, 1, OIIO::TypeFloat)));
+  REQUIRE(out->write_image(OIIO::TypeFloat, values.data()));
+  REQUIRE(out->close());
+  CHECK(count_unusable(open_picture(file, most_picture_bytes)) == 4);
+  for (const ColorSpace space : {ColorSpace::linear, ColorSpace::srgb}) {
+    const std::vector<Texture> textures{ImageTexture{file, space}};
+    const TextureStore store(textures);
+    const Image image = store.image(0);
+    for (int x = 0; x < 5; ++x) {
+      const float half = space == ColorSpace::linear ? 0.5F : linear_from_srgb(0.5F);
+      const float expected = x < 4 ? 0 : half;
+      CAPTURE(x);
+      CHECK(store.sample(0, {(static_cast<float>(x) + 0.5F) / 5, 0.5F}).g ==
+            Approx(expected).margin(1e-6));
+      CHECK(image.at(x, 0).g == Approx(expected).margin(1e-6));
     }
   }
 }

@@ -23,6 +23,8 @@ struct LocatedError {
 
 // "file:line:column: error: message", then the excerpt and a caret under the column.
 [[nodiscard]] std::string format_error(const LocatedError& error);
+// The same with "warning" for "error".
+[[nodiscard]] std::string format_warning(const LocatedError& warning);
 
 // All errors of a scene file and of the files that it names.
 class SceneError : public std::runtime_error {

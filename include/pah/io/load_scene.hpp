@@ -29,6 +29,7 @@ struct LoadOptions {
 struct LoadedScene {
   Scene scene;
   std::string hash;  // hex, of the text, the overrides and every file that the scene names
+  std::vector<LocatedError> warnings;  // what is odd, and how it is taken
 };
 
 // Throws SceneError with every error found, FileError if the scene file itself cannot be read.

@@ -132,6 +132,7 @@ LoadedScene load_scene(const fs::path& file, const LoadOptions& options) {
   if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
 
   ErrorCollector errors(file.string(), text, options.overrides);
+  ErrorCollector warnings(file.string(), text, options.overrides);
   ReadContext context{errors};
   LoadedScene loaded;
   SceneFiles files(file.parent_path());
@@ -154,12 +155,15 @@ LoadedScene load_scene(const fs::path& file, const LoadOptions& options) {
           if (entry.key.starts_with("x-")) map.find(entry.key);
       });
       check_pictures(reading);
+      for (YamlFault& warning : reading.warnings)
+        warnings.add(warning.mark, std::move(warning.message));
     }
   } catch (const YamlError& error) {
     for (YamlFault& fault : faults) errors.add(fault.mark, std::move(fault.message));
     errors.add(error.mark(), error.what());
   }
   if (errors.size() > 0) throw SceneError(errors.located());
+  loaded.warnings = warnings.located();
   loaded.hash = files.hash().hex();
   return loaded;
 }

@@ -10,20 +10,27 @@ void check_pictures(SceneReading& reading) {
     const std::filesystem::path& file;
     const Mark& mark;
     std::string fault{};
+    std::uint64_t unusable = 0;
   };
   std::vector<Check> checks;
   for (const auto& [file, mark] : reading.pictures) checks.push_back({file, mark});
   parallel_for(checks.size(), 1, [&](std::size_t i) {
     try {
-      check_image_file(checks[i].file, reading.limits.image_bytes);
+      checks[i].unusable = check_image_file(checks[i].file, reading.limits.image_bytes);
     } catch (const FileError& error) {
       checks[i].fault = error.what();
     }
   });
-  for (const Check& check : checks)
+  for (const Check& check : checks) {
+    const std::string shown = "image '" + check.file.filename().string() + "'";
     if (!check.fault.empty())
-      reading.context.errors.add(
-          check.mark, "cannot read image '" + check.file.filename().string() + "': " + check.fault);
+      reading.context.errors.add(check.mark, "cannot read " + shown + ": " + check.fault);
+    if (check.unusable > 0)
+      reading.warnings.push_back(
+          {check.mark,
+           shown + " has " + std::to_string(check.unusable) +
+               " values that are infinite, too large or not a number; they count as 0"});
+  }
 }
 
 }  // namespace pah
