@@ -119,6 +119,9 @@ void add_render_options(CLI::App& app, RenderArguments& arguments) {
   app.add_option("--stats", arguments.stats, "Write what was done and how long it took, as JSON")
       ->type_name("FILE");
   app.add_flag("--half", arguments.half, "EXR: 16-bit floats instead of 32-bit");
+  app.add_option("--png-bits", arguments.png_bits, "PNG: 8, the default, or 16 bits a channel")
+      ->check(CLI::IsMember({8, 16}).description(""))
+      ->type_name("N");
   app.add_flag("--quiet", arguments.quiet, "Say nothing but errors");
   app.add_flag("--check", arguments.check, "Only load the scene and report its errors");
 }

@@ -19,10 +19,11 @@ namespace {
 namespace fs = std::filesystem;
 
 enum class Encoding {
-  srgb_8,   // 8-bit sRGB, exposed and clamped to [0, 1]
-  srgb_16,  // 16-bit sRGB, likewise
-  rgbe,     // linear, not negative, a shared exponent
-  exr       // linear, 16- or 32-bit floats, any number of layers
+  png,   // 8- or 16-bit sRGB, exposed and clamped to [0, 1]
+  jpeg,  // 8-bit sRGB, likewise
+  tiff,  // linear, 32-bit floats
+  rgbe,  // linear, not negative, a shared exponent
+  exr    // linear, 16- or 32-bit floats, any number of layers
 };
 
 struct Format {
@@ -30,9 +31,9 @@ struct Format {
   Encoding encoding;
 };
 
-constexpr Format formats[] = {{".png", Encoding::srgb_8},   {".jpg", Encoding::srgb_8},
-                              {".jpeg", Encoding::srgb_8},  {".tif", Encoding::srgb_16},
-                              {".tiff", Encoding::srgb_16}, {".hdr", Encoding::rgbe},
+constexpr Format formats[] = {{".png", Encoding::png},   {".jpg", Encoding::jpeg},
+                              {".jpeg", Encoding::jpeg}, {".tif", Encoding::tiff},
+                              {".tiff", Encoding::tiff}, {".hdr", Encoding::rgbe},
                               {".exr", Encoding::exr}};
 
 [[noreturn]] void fail_to_read(const fs::path& file, const std::string& why) {
@@ -136,9 +137,9 @@ OIIO::ImageSpec spec_of(const Image& image, Encoding encoding, const WriteOption
   // A date would make equal pictures differ.
   spec.attribute("DateTime", "");
   spec.attribute("Software", "pahrender");
-  spec.attribute("Compression", encoding == Encoding::srgb_8 ? "jpeg:95" : "zip");
+  spec.attribute("Compression", encoding == Encoding::jpeg ? "jpeg:95" : "zip");
   spec.attribute("jpeg:subsampling", "4:4:4");
-  if (encoding == Encoding::srgb_8 || encoding == Encoding::srgb_16)
+  if (encoding == Encoding::png || encoding == Encoding::jpeg)
     spec.attribute("oiio:ColorSpace", "sRGB");
   for (const auto& [name, value] : options.metadata) spec.attribute(name, value);
   return spec;
@@ -154,12 +155,17 @@ void encode(const fs::path& file, const std::string& to, OIIO::ImageOutput& out,
       fail_to_write(file, or_unknown(out.geterror()));
   };
   switch (encoding) {
-    case Encoding::srgb_8:
+    case Encoding::png:
+      if (options.png_bits == 16) {
+        spec.set_format(OIIO::TypeUInt16);
+        return write(OIIO::TypeUInt16, srgb_pixels<std::uint16_t>(image, options.exposure).data());
+      }
+      [[fallthrough]];
+    case Encoding::jpeg:
       spec.set_format(OIIO::TypeUInt8);
       return write(OIIO::TypeUInt8, srgb_pixels<std::uint8_t>(image, options.exposure).data());
-    case Encoding::srgb_16:
-      spec.set_format(OIIO::TypeUInt16);
-      return write(OIIO::TypeUInt16, srgb_pixels<std::uint16_t>(image, options.exposure).data());
+    case Encoding::tiff:
+      return write(OIIO::TypeFloat, image.pixels.data());
     case Encoding::rgbe:
       return write(OIIO::TypeFloat, rgbe_pixels(image).data());
     case Encoding::exr:
@@ -216,11 +222,13 @@ void write_image(const fs::path& file, const std::vector<ImageLayer>& layers,
                  const WriteOptions& options) {
   const Format& format = format_of(file);
   require_layers(layers);
+  if (options.png_bits != 8 && options.png_bits != 16)
+    throw std::invalid_argument("a PNG file has 8 or 16 bits");
   std::vector<unsigned char> bytes;
   OIIO::Filesystem::IOVecOutput proxy(bytes);  // outlives the output, which may write when it ends
   const auto out = OIIO::ImageOutput::create(file.filename().string());
   if (!out) fail_to_write(file, or_unknown(OIIO::geterror()));
-  if (format.encoding == Encoding::srgb_16)
+  if (format.encoding == Encoding::tiff)
     return write_by_file(file, *out, format.encoding, layers, options);
   // In memory first: not every encoder notices a full disk.
   out->set_ioproxy(&proxy);

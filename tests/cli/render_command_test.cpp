@@ -175,6 +175,24 @@ TEST_CASE("EXR files say how they were made and hold the layers asked for") {
   CHECK(OIIO::ImageInput::open("half.exr")->spec().channelformat(0) == OIIO::TypeHalf);
 }
 
+TEST_CASE("PNG files have 16 bits with --png-bits, and no room for layers, which is said") {
+  const CurrentTemporaryFolder folder;
+  write_file("scene.yaml", small_scene);
+  render({"scene.yaml", "-o", "out.PNG", "--png-bits", "16"});
+  CHECK(OIIO::ImageInput::open("out.PNG")->spec().format == OIIO::TypeUInt16);
+  const Outcome outcome = run({"scene.yaml", "-o", "out.png", "-D", "film.channels=[depth]"});
+  CHECK(outcome.exit_code == 0);
+  CHECK(outcome.err.starts_with("warning: out.png has no room for the 'channels' of film"));
+}
+
+TEST_CASE("TIFF files are linear, as EXR files are") {
+  const CurrentTemporaryFolder folder;
+  write_file("scene.yaml", small_scene);
+  render({"scene.yaml", "-o", "out.exr"});
+  render({"scene.yaml", "-o", "out.tif", "--exposure", "-20"});
+  CHECK(identical("out.exr", "out.tif"));
+}
+
 TEST_CASE("switch --time-limit ends a render that would take for ever") {
   const CurrentTemporaryFolder folder;
   write_file("scene.yaml", small_scene);

@@ -66,6 +66,10 @@ TEST_CASE("wrong usage exits with 2 and says what is wrong") {
   for (const char* crop : {"", "1,2,3", "0,1,0,1,", "0,0,0,1", "2,1,0,1", "-1,1,0,1", "a,b,c,d"})
     check_failure({"scene.yaml", "--crop", crop}, 2, "--crop");
   check_failure({"scene.yaml", "--crop", "0,33,0,24"}, 2, "crop");
+  check_failure({"scene.yaml", "--png-bits", "12"}, 2, "--png-bits");
+  check_failure({"scene.yaml", "-o", "out.exr", "--png-bits", "16"}, 2, "--png-bits is for .png");
+  check_failure({"scene.yaml", "--half"}, 2, "--half is for .exr files; the picture is scene.png");
+  check_failure({"scene.yaml", "-o", "out.tif", "--half"}, 2, "--half");
   check_failure({"--spp", "4", "compare", "a.png", "b.png"}, 2, "--spp");
 }
 
