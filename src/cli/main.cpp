@@ -74,10 +74,12 @@ void add_render_options(CLI::App& app, RenderArguments& arguments) {
   app.add_option("--spp", arguments.samples, "Samples per pixel")
       ->check(whole_number(1, 1 << 30))
       ->type_name("N");
-  app.add_option("--width", arguments.width, "Of the picture, in pixels")
+  app.add_option("--width", arguments.width,
+                 "Of the picture, in pixels; without --height that\n"
+                 "follows, as the scene's")
       ->check(whole_number(1, 65536))
       ->type_name("N");
-  app.add_option("--height", arguments.height, "Of the picture, in pixels")
+  app.add_option("--height", arguments.height, "Likewise")
       ->check(whole_number(1, 65536))
       ->type_name("N");
   app.add_option_function<std::string>(

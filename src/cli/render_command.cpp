@@ -69,15 +69,13 @@ void warn_of_layers(const FilmSettings& film, const fs::path& output) {
 }
 
 void apply(const RenderArguments& arguments, Scene& scene) {
-  scene.film.width = arguments.width.value_or(scene.film.width);
-  scene.film.height = arguments.height.value_or(scene.film.height);
+  resize(scene.film, arguments.width, arguments.height);
   scene.film.exposure = arguments.exposure.value_or(scene.film.exposure);
   scene.render.samples = arguments.samples.value_or(scene.render.samples);
   scene.render.seed = arguments.seed.value_or(scene.render.seed);
   if (arguments.crop) scene.film.crop = arguments.crop;
 
   const FilmSettings& film = scene.film;
-  check_size(film);
   if (film.crop && (film.crop->x1 > film.width || film.crop->y1 > film.height))
     throw UsageError(fmt::format("the crop {},{},{},{} reaches beyond the {} x {} picture",
                                  film.crop->x0, film.crop->x1, film.crop->y0, film.crop->y1,

@@ -100,6 +100,20 @@ TEST_CASE("the command line overrides the scene") {
   CHECK(read_json("stats.json")["samples"] == 2);
 }
 
+TEST_CASE("switch --width or --height alone keeps the aspect of the scene") {
+  const CurrentTemporaryFolder folder;
+  write_file("scene.yaml", small_scene);  // 32 x 24
+  const auto size = [](const char* option, const char* value) {
+    render({"scene.yaml", "-o", "out.exr", option, value, "--spp", "1"});
+    const pah::Image image = pah::read_image("out.exr");
+    return std::pair(image.width, image.height);
+  };
+  CHECK(size("--width", "64") == std::pair(64, 48));
+  CHECK(size("--height", "6") == std::pair(8, 6));
+  CHECK(size("--width", "15") == std::pair(15, 11));
+  CHECK(size("--height", "1") == std::pair(1, 1));
+}
+
 TEST_CASE("switch --exposure counts in stops, in low dynamic range files only") {
   const CurrentTemporaryFolder folder;
   write_file("scene.yaml", small_scene);

@@ -59,6 +59,9 @@ TEST_CASE("wrong usage exits with 2 and says what is wrong") {
   check_failure({"scene.yaml", "--width", "65537"}, 2, "--width");
   check_failure({"scene.yaml", "--height", "0"}, 2, "--height");
   check_failure({"scene.yaml", "--width", "65536", "--height", "65536"}, 2, "too large");
+  check_failure({"scene.yaml", "--width", "1000", "-D", "film.width=1", "-D", "film.height=100"}, 2,
+                "1000 x 100000 pixels is too large");
+  check_failure({"scene.yaml", "--width", "16", "--crop", "0,17,0,12"}, 2, "16 x 12");
   check_failure({"scene.yaml", "--threads", "-1"}, 2, "--threads");
   check_failure({"scene.yaml", "--seed", "-1"}, 2, "--seed");
   check_failure({"scene.yaml", "--time-limit", "nan"}, 2, "--time-limit");
