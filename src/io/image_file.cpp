@@ -240,14 +240,10 @@ Image read_image(const fs::path& file, std::uint64_t max_bytes) {
   try {
     const OpenPicture picture = open_picture(file, max_bytes);
     const OIIO::ImageSpec& spec = picture.spec;
-    const std::uint64_t pixels = spec.image_pixels();
-    if (pixels > max_bytes / sizeof(Vec3))
-      fail_to_read(file, std::to_string(spec.width) + " x " + std::to_string(spec.height) +
-                             " pixels are more than " + std::to_string(max_bytes >> 20) + " MiB");
     const auto [first, color] = channels_of(spec);
     const bool srgb = color && (spec.format == OIIO::TypeUInt8 || spec.format == OIIO::TypeUInt16);
 
-    Image image{spec.width, spec.height, std::vector<Vec3>(pixels)};
+    Image image{spec.width, spec.height, std::vector<Vec3>(spec.image_pixels())};
     const OIIO::stride_t stride = sizeof(Vec3);
     if (!picture.input->read_image(0, 0, first, first + (color ? 3 : 1), OIIO::TypeFloat,
                                    image.pixels.data(), stride))

@@ -34,11 +34,7 @@ ImageHeader read_image_header(const std::filesystem::path& file, std::uint64_t m
 }
 
 std::uint64_t check_image_file(const std::filesystem::path& file, std::uint64_t max_bytes) {
-  return guarded([&] {
-    const OpenPicture picture = open_picture(file, max_bytes);
-    check_complete(picture);
-    return count_unusable(picture);
-  });
+  return guarded([&] { return count_unusable(open_picture(file, max_bytes)); });
 }
 
 std::vector<float> read_first_channel(const std::filesystem::path& file, std::uint64_t max_bytes) {

@@ -12,7 +12,7 @@ struct ImageHeader {
 };
 
 // Throws FileError, saying what is wrong without naming the file: also if the picture takes more
-// than `max_bytes` as floats.
+// than `max_bytes` as RGB floats.
 [[nodiscard]] ImageHeader read_image_header(const std::filesystem::path& file,
                                             std::uint64_t max_bytes);
 

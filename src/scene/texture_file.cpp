@@ -55,7 +55,7 @@ std::string read_bytes(const fs::path& file, std::uint64_t max_bytes) {
                                std::uint64_t max_bytes) {
   throw PictureError(std::to_string(width) + " x " + std::to_string(height) + " pixels of " +
                      std::to_string(channels) + (channels == 1 ? " channel" : " channels") +
-                     " are more than " + described_bytes(max_bytes) + " as floats");
+                     " are more than " + described_bytes(max_bytes) + " as RGB floats");
 }
 
 // Some readers make room for what the header claims as soon as they open the file.
@@ -127,11 +127,11 @@ OpenPicture open_picture(const fs::path& file, std::uint64_t max_bytes,
   }
 }
 
-// A texel is decoded to a float; so is a whole tile at a time, whatever size the file claims.
+// An environment is decoded to RGB, and a whole tile at a time, whatever size the file claims.
 double decoded_bytes(const OIIO::ImageSpec& spec) {
   const double image = static_cast<double>(spec.width) * spec.height;
   const double tile = static_cast<double>(spec.tile_width) * spec.tile_height;
-  return std::max(image, tile) * spec.nchannels * sizeof(float);
+  return std::max(image, tile) * std::max(spec.nchannels, 3) * sizeof(float);
 }
 
 void check_complete(const OpenPicture& picture) {
@@ -151,12 +151,12 @@ void check_complete(const OpenPicture& picture) {
     throw PictureError(reason_of(*picture.input));
 }
 
-std::uint64_t count_unusable(const OpenPicture& picture) {
+void read_rows(const OpenPicture& picture,
+               const std::function<void(std::span<float> values)>& visit) {
   const OIIO::ImageSpec& spec = picture.spec;
   // A row of tiles, or as many rows as an EXR file's blocks have at most.
   const int step = spec.tile_width > 0 ? spec.tile_height : 256;
   std::vector<float> values;
-  std::uint64_t count = 0;
   for (int row = 0; row < spec.height; row += step) {
     const int first = spec.y + row, last = spec.y + std::min(row + step, spec.height);
     values.resize(static_cast<std::size_t>(spec.width) * static_cast<std::size_t>(last - first) *
@@ -169,8 +169,13 @@ std::uint64_t count_unusable(const OpenPicture& picture) {
             : picture.input->read_scanlines(0, 0, first, last, spec.z, 0, spec.nchannels,
                                             OIIO::TypeFloat, values.data());
     if (!read) throw PictureError(reason_of(*picture.input));
-    count += clear_unusable(values);
+    visit(values);
   }
+}
+
+std::uint64_t count_unusable(const OpenPicture& picture) {
+  std::uint64_t count = 0;
+  read_rows(picture, [&](std::span<float> values) { count += clear_unusable(values); });
   return count;
 }
 

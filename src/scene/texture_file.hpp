@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <span>
 #include <stdexcept>
@@ -29,18 +30,22 @@ struct OpenPicture {
 };
 
 // Opens with the reader that the first bytes name, whatever the extension says, and refuses what
-// takes more than `max_bytes` as floats before it is decoded. `config` is OpenImageIO's. Throws
+// takes more than `max_bytes` as RGB floats before it is decoded. `config` is OpenImageIO's. Throws
 // PictureError.
 [[nodiscard]] OpenPicture open_picture(const std::filesystem::path& file, std::uint64_t max_bytes,
                                        const OIIO::ImageSpec& config = {});
 
-// Of a picture or a level of it, as floats.
+// Of a picture or a level of it, as floats of three channels or more.
 [[nodiscard]] double decoded_bytes(const OIIO::ImageSpec& spec);
 
 // A file that ends early shows in the row that it stores last. Throws PictureError.
 void check_complete(const OpenPicture& picture);
 
-// Decodes everything, a part at a time; how many values are unusable. Throws PictureError.
+// Decodes everything, calling visit() with some rows at a time. Throws PictureError.
+void read_rows(const OpenPicture& picture,
+               const std::function<void(std::span<float> values)>& visit);
+
+// Decodes everything; how many values are unusable. Throws PictureError.
 [[nodiscard]] std::uint64_t count_unusable(const OpenPicture& picture);
 
 // Sets to 0 what is no number, infinite, or so large that products of it soon are; how many.

@@ -183,19 +183,17 @@ Vec4 TextureStore::Impl::sample_image(const ImageEntry& image, bool decoded, con
 
 Image TextureStore::Impl::read_whole(TextureId id, const ImageTexture& texture) const {
   const OpenPicture opened = open_image(texture, options);
-  const auto channels = static_cast<std::size_t>(opened.spec.nchannels);
-  const auto width = static_cast<std::size_t>(opened.spec.width);
-  const auto height = static_cast<std::size_t>(opened.spec.height);
-  std::vector<float> texels(width * height * channels);
-  if (!opened.input->read_image(0, 0, 0, opened.spec.nchannels, OIIO::TypeFloat, texels.data()))
-    throw PictureError(reason_of(*opened.input));
-  clear_unusable(texels);
-  if (entries[id].image.srgb)
-    decode_srgb(texels.data(), width * height, opened.spec.nchannels, opened.spec.alpha_channel);
-  Image image{opened.spec.width, opened.spec.height, {}};
-  image.pixels.resize(width * height);
-  for (std::size_t i = 0; i < image.pixels.size(); ++i)
-    image.pixels[i] = Vec3{as_rgba(&texels[i * channels], std::min(opened.spec.nchannels, 4))};
+  const OIIO::ImageSpec& spec = opened.spec;
+  const auto channels = static_cast<std::size_t>(spec.nchannels);
+  Image image{spec.width, spec.height, {}};
+  image.pixels.reserve(spec.image_pixels());
+  read_rows(opened, [&](std::span<float> values) {
+    clear_unusable(values);
+    if (entries[id].image.srgb)
+      decode_srgb(values.data(), values.size() / channels, spec.nchannels, spec.alpha_channel);
+    for (std::size_t i = 0; i < values.size(); i += channels)
+      image.pixels.emplace_back(as_rgba(&values[i], std::min(spec.nchannels, 4)));
+  });
   return image;
 }
 

@@ -22,7 +22,7 @@ class TextureError : public std::runtime_error {
 };
 
 struct TextureOptions {
-  std::uint64_t max_image_bytes = 4ULL << 30;  // of one decoded image, as floats
+  std::uint64_t max_image_bytes = 4ULL << 30;  // of one decoded image, as RGB floats
   int cache_megabytes = 1024;                  // tiles held in memory
 };
 

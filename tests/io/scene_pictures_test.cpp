@@ -51,5 +51,5 @@ TEST_CASE("the limit is of a picture as floats") {
   CHECK(errors_with(test::tga(5, 5, texels), options).empty());
   CHECK(errors_with(test::tga(10, 9, texels + texels + texels + texels), options) ==
         "scene.yaml:2:35: error: cannot read image 'a.png': 10 x 9 pixels of 3 channels are more "
-        "than 1000 bytes as floats\n");
+        "than 1000 bytes as RGB floats\n");
 }

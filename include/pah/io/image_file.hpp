@@ -42,7 +42,7 @@ void write_image(const std::filesystem::path& file, const std::vector<ImageLayer
                  const WriteOptions& options = {});
 
 // R, G and B (or the first three channels, or the first, thrice), linear: 8- and 16-bit colors are
-// taken for sRGB. Throws FileError, also if the picture is larger than `max_bytes` as floats.
+// taken for sRGB. Throws FileError, also if the picture is larger than `max_bytes` as RGB floats.
 [[nodiscard]] Image read_image(const std::filesystem::path& file,
                                std::uint64_t max_bytes = 4ULL << 30);
 

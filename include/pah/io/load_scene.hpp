@@ -18,7 +18,7 @@ struct LoadLimits {
   std::uint64_t triangles = 100'000'000;  // of the whole scene, repeats included
   std::uint64_t instances = 20'000'000;
   std::uint64_t film_pixels = 1ULL << 28;
-  std::uint64_t image_bytes = 4ULL << 30;  // of one decoded texture
+  std::uint64_t image_bytes = 4ULL << 30;  // of one decoded texture, as RGB floats
 };
 
 struct LoadOptions {
