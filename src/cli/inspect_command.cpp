@@ -38,9 +38,7 @@ void check_outputs(const InspectArguments& arguments) {
 }
 
 void apply(const InspectArguments& arguments, FilmSettings& film) {
-  film.width = arguments.width.value_or(film.width);
-  film.height = arguments.height.value_or(film.height);
-  check_size(film);
+  resize(film, arguments.width, arguments.height);
 }
 
 struct TimedBvh {

@@ -17,6 +17,7 @@
 #include "cli/inspect_command.hpp"
 #include "cli/render_command.hpp"
 #include "cli/study_command.hpp"
+#include "scene/texture_store.hpp"
 
 namespace pah::cli {
 namespace {
@@ -73,10 +74,12 @@ void add_render_options(CLI::App& app, RenderArguments& arguments) {
   app.add_option("--spp", arguments.samples, "Samples per pixel")
       ->check(whole_number(1, 1 << 30))
       ->type_name("N");
-  app.add_option("--width", arguments.width, "Of the picture, in pixels")
+  app.add_option("--width", arguments.width,
+                 "Of the picture, in pixels; without --height that\n"
+                 "follows, as the scene's")
       ->check(whole_number(1, 65536))
       ->type_name("N");
-  app.add_option("--height", arguments.height, "Of the picture, in pixels")
+  app.add_option("--height", arguments.height, "Likewise")
       ->check(whole_number(1, 65536))
       ->type_name("N");
   app.add_option_function<std::string>(
@@ -118,6 +121,9 @@ void add_render_options(CLI::App& app, RenderArguments& arguments) {
   app.add_option("--stats", arguments.stats, "Write what was done and how long it took, as JSON")
       ->type_name("FILE");
   app.add_flag("--half", arguments.half, "EXR: 16-bit floats instead of 32-bit");
+  app.add_option("--png-bits", arguments.png_bits, "PNG: 8, the default, or 16 bits a channel")
+      ->check(CLI::IsMember({8, 16}).description(""))
+      ->type_name("N");
   app.add_flag("--quiet", arguments.quiet, "Say nothing but errors");
   app.add_flag("--check", arguments.check, "Only load the scene and report its errors");
 }
@@ -254,6 +260,9 @@ int main(int argc, char** argv) {
   } catch (const pah::SceneError& errors) {
     for (const pah::LocatedError& error : errors.errors())
       fmt::print(stderr, "{}\n", pah::format_error(error));
+    return end(ExitCode::scene_error);
+  } catch (const pah::TextureError& error) {  // found by loading, unless the file has changed since
+    fmt::print(stderr, "pahrender: {}\n", error.what());
     return end(ExitCode::scene_error);
   } catch (const pah::FileError& error) {
     fmt::print(stderr, "pahrender: {}\n", error.what());

@@ -48,16 +48,34 @@ fs::path output_of(const RenderArguments& arguments) {
                                arguments.output.string(), fmt::join(image_extensions(), ", ")));
 }
 
+// What is asked for and has no place in such a file.
+void check_format(const RenderArguments& arguments, const fs::path& output) {
+  const std::string extension = lower_extension(output);
+  const auto require = [&](const char* option, const char* needed) {
+    if (extension != needed)
+      throw UsageError(
+          fmt::format("{} is for {} files; the picture is {}", option, needed, output.string()));
+  };
+  if (arguments.half) require("--half", ".exr");
+  if (arguments.png_bits) require("--png-bits", ".png");
+}
+
+// A scene with layers may well be rendered to a PNG file, to look at.
+void warn_of_layers(const FilmSettings& film, const fs::path& output) {
+  if ((film.albedo || film.normal || film.depth || film.variance) &&
+      lower_extension(output) != ".exr")
+    fmt::print(stderr, "warning: {} has no room for the 'channels' of film; .exr files have\n",
+               output.string());
+}
+
 void apply(const RenderArguments& arguments, Scene& scene) {
-  scene.film.width = arguments.width.value_or(scene.film.width);
-  scene.film.height = arguments.height.value_or(scene.film.height);
+  resize(scene.film, arguments.width, arguments.height);
   scene.film.exposure = arguments.exposure.value_or(scene.film.exposure);
   scene.render.samples = arguments.samples.value_or(scene.render.samples);
   scene.render.seed = arguments.seed.value_or(scene.render.seed);
   if (arguments.crop) scene.film.crop = arguments.crop;
 
   const FilmSettings& film = scene.film;
-  check_size(film);
   if (film.crop && (film.crop->x1 > film.width || film.crop->y1 > film.height))
     throw UsageError(fmt::format("the crop {},{},{},{} reaches beyond the {} x {} picture",
                                  film.crop->x0, film.crop->x1, film.crop->y0, film.crop->y1,
@@ -99,11 +117,12 @@ std::uint64_t total_rays(const RenderCounts& counts) {
 }
 
 void write_picture(const fs::path& file, const RenderResult& result, const Scene& scene,
-                   const std::string& hash, bool half) {
+                   const std::string& hash, const RenderArguments& arguments) {
   WriteOptions options;
   options.exposure = scene.film.exposure;
   // Unless asked to, comparisons of pictures are not to meet the rounding to half floats.
-  options.full_float = !half;
+  options.full_float = !arguments.half;
+  options.png_bits = arguments.png_bits.value_or(options.png_bits);
   options.metadata = {{"pahrender:version", PAHRENDER_VERSION},
                       {"pahrender:scene_hash", hash},
                       {"pahrender:samples", std::to_string(result.samples)},
@@ -128,6 +147,7 @@ ExitCode run_render(const RenderArguments& arguments) {
   const Stopwatch total;
   handle_interrupts();
   const fs::path output = output_of(arguments);
+  check_format(arguments, output);
   if (!arguments.check) {
     check_writable(output);
     if (!arguments.stats.empty()) check_can_create(arguments.stats);
@@ -145,6 +165,7 @@ ExitCode run_render(const RenderArguments& arguments) {
     if (!arguments.quiet) fmt::print(stderr, "{}: no errors\n", arguments.scene.string());
     return ExitCode::done;
   }
+  if (!arguments.quiet) warn_of_layers(scene.film, output);
   const World world = make_world(scene);
   if (!arguments.quiet) print_warnings(world.warnings);
   // From here on everything comes from the world.
@@ -166,7 +187,7 @@ ExitCode run_render(const RenderArguments& arguments) {
     fmt::print(stderr, "interrupted before there was anything to save\n");
     return ExitCode::interrupted;
   }
-  write_picture(output, result, scene, loaded.hash, arguments.half);
+  write_picture(output, result, scene, loaded.hash, arguments);
   if (!arguments.quiet) print_summary(output, result, scene.render.samples);
 
   if (!arguments.stats.empty()) {

@@ -26,6 +26,7 @@ struct RenderArguments {
   std::vector<std::string> overrides;  // key.path=value
   std::filesystem::path stats;         // empty: none
   bool half = false;                   // EXR files in 16-bit floats
+  std::optional<int> png_bits;         // 8 or 16
   bool quiet = false;
   bool check = false;
 };

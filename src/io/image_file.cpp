@@ -11,6 +11,7 @@
 #include "image/srgb.hpp"
 #include "io/extension.hpp"
 #include "io/output_file.hpp"
+#include "scene/texture_file.hpp"
 
 namespace pah {
 namespace {
@@ -18,10 +19,11 @@ namespace {
 namespace fs = std::filesystem;
 
 enum class Encoding {
-  srgb_8,   // 8-bit sRGB, exposed and clamped to [0, 1]
-  srgb_16,  // 16-bit sRGB, likewise
-  rgbe,     // linear, not negative, a shared exponent
-  exr       // linear, 16- or 32-bit floats, any number of layers
+  png,   // 8- or 16-bit sRGB, exposed and clamped to [0, 1]
+  jpeg,  // 8-bit sRGB, likewise
+  tiff,  // linear, 32-bit floats
+  rgbe,  // linear, not negative, a shared exponent
+  exr    // linear, 16- or 32-bit floats, any number of layers
 };
 
 struct Format {
@@ -29,9 +31,9 @@ struct Format {
   Encoding encoding;
 };
 
-constexpr Format formats[] = {{".png", Encoding::srgb_8},   {".jpg", Encoding::srgb_8},
-                              {".jpeg", Encoding::srgb_8},  {".tif", Encoding::srgb_16},
-                              {".tiff", Encoding::srgb_16}, {".hdr", Encoding::rgbe},
+constexpr Format formats[] = {{".png", Encoding::png},   {".jpg", Encoding::jpeg},
+                              {".jpeg", Encoding::jpeg}, {".tif", Encoding::tiff},
+                              {".tiff", Encoding::tiff}, {".hdr", Encoding::rgbe},
                               {".exr", Encoding::exr}};
 
 [[noreturn]] void fail_to_read(const fs::path& file, const std::string& why) {
@@ -135,9 +137,9 @@ OIIO::ImageSpec spec_of(const Image& image, Encoding encoding, const WriteOption
   // A date would make equal pictures differ.
   spec.attribute("DateTime", "");
   spec.attribute("Software", "pahrender");
-  spec.attribute("Compression", encoding == Encoding::srgb_8 ? "jpeg:95" : "zip");
+  spec.attribute("Compression", encoding == Encoding::jpeg ? "jpeg:95" : "zip");
   spec.attribute("jpeg:subsampling", "4:4:4");
-  if (encoding == Encoding::srgb_8 || encoding == Encoding::srgb_16)
+  if (encoding == Encoding::png || encoding == Encoding::jpeg)
     spec.attribute("oiio:ColorSpace", "sRGB");
   for (const auto& [name, value] : options.metadata) spec.attribute(name, value);
   return spec;
@@ -153,12 +155,17 @@ void encode(const fs::path& file, const std::string& to, OIIO::ImageOutput& out,
       fail_to_write(file, or_unknown(out.geterror()));
   };
   switch (encoding) {
-    case Encoding::srgb_8:
+    case Encoding::png:
+      if (options.png_bits == 16) {
+        spec.set_format(OIIO::TypeUInt16);
+        return write(OIIO::TypeUInt16, srgb_pixels<std::uint16_t>(image, options.exposure).data());
+      }
+      [[fallthrough]];
+    case Encoding::jpeg:
       spec.set_format(OIIO::TypeUInt8);
       return write(OIIO::TypeUInt8, srgb_pixels<std::uint8_t>(image, options.exposure).data());
-    case Encoding::srgb_16:
-      spec.set_format(OIIO::TypeUInt16);
-      return write(OIIO::TypeUInt16, srgb_pixels<std::uint16_t>(image, options.exposure).data());
+    case Encoding::tiff:
+      return write(OIIO::TypeFloat, image.pixels.data());
     case Encoding::rgbe:
       return write(OIIO::TypeFloat, rgbe_pixels(image).data());
     case Encoding::exr:
@@ -215,11 +222,13 @@ void write_image(const fs::path& file, const std::vector<ImageLayer>& layers,
                  const WriteOptions& options) {
   const Format& format = format_of(file);
   require_layers(layers);
+  if (options.png_bits != 8 && options.png_bits != 16)
+    throw std::invalid_argument("a PNG file has 8 or 16 bits");
   std::vector<unsigned char> bytes;
   OIIO::Filesystem::IOVecOutput proxy(bytes);  // outlives the output, which may write when it ends
   const auto out = OIIO::ImageOutput::create(file.filename().string());
   if (!out) fail_to_write(file, or_unknown(OIIO::geterror()));
-  if (format.encoding == Encoding::srgb_16)
+  if (format.encoding == Encoding::tiff)
     return write_by_file(file, *out, format.encoding, layers, options);
   // In memory first: not every encoder notices a full disk.
   out->set_ioproxy(&proxy);
@@ -228,39 +237,25 @@ void write_image(const fs::path& file, const std::vector<ImageLayer>& layers,
 }
 
 Image read_image(const fs::path& file, std::uint64_t max_bytes) {
-  std::error_code error;
-  const fs::file_status status = fs::status(file, error);
-  if (!fs::exists(status)) fail_to_read(file, "it does not exist");
-  if (!fs::is_regular_file(status)) fail_to_read(file, "it is not a file");
   try {
-    // The decoders allocate what the header asks for.
-    const std::uint64_t megabytes = std::max<std::uint64_t>(max_bytes >> 20, 1);
-    OIIO::attribute("limits:imagesize_MB",
-                    static_cast<int>(std::min<std::uint64_t>(megabytes, 1U << 30)));
-    const auto in = OIIO::ImageInput::open(file.string());
-    if (!in) fail_to_read(file, or_unknown(OIIO::geterror()));
-    const OIIO::ImageSpec& spec = in->spec();
-    if (spec.width <= 0 || spec.height <= 0 || spec.depth > 1 || spec.nchannels < 1 || spec.deep)
-      fail_to_read(file, "it is not a flat picture");
-    const std::uint64_t pixels =
-        static_cast<std::uint64_t>(spec.width) * static_cast<std::uint64_t>(spec.height);
-    if (pixels > max_bytes / sizeof(Vec3))
-      fail_to_read(file, std::to_string(spec.width) + " x " + std::to_string(spec.height) +
-                             " pixels are more than " + std::to_string(megabytes) + " MB");
+    const OpenPicture picture = open_picture(file, max_bytes);
+    const OIIO::ImageSpec& spec = picture.spec;
     const auto [first, color] = channels_of(spec);
     const bool srgb = color && (spec.format == OIIO::TypeUInt8 || spec.format == OIIO::TypeUInt16);
 
-    Image image{spec.width, spec.height, std::vector<Vec3>(pixels)};
+    Image image{spec.width, spec.height, std::vector<Vec3>(spec.image_pixels())};
     const OIIO::stride_t stride = sizeof(Vec3);
-    if (!in->read_image(0, 0, first, first + (color ? 3 : 1), OIIO::TypeFloat, image.pixels.data(),
-                        stride))
-      fail_to_read(file, or_unknown(in->geterror()));
+    if (!picture.input->read_image(0, 0, first, first + (color ? 3 : 1), OIIO::TypeFloat,
+                                   image.pixels.data(), stride))
+      fail_to_read(file, reason_of(*picture.input));
     for (Vec3& pixel : image.pixels) {
       if (!color) pixel = Vec3(pixel.x);
       if (srgb)
         for (int k = 0; k < 3; ++k) pixel[k] = linear_from_srgb(pixel[k]);
     }
     return image;
+  } catch (const PictureError& error) {
+    fail_to_read(file, error.what());
   } catch (const std::bad_alloc&) {
     fail_to_read(file, "out of memory");
   }

@@ -2,32 +2,49 @@
 
 #include <OpenImageIO/imageio.h>
 
+#include <new>
 #include <pah/io/errors.hpp>
+#include <stdexcept>
+
+#include "scene/texture_file.hpp"
 
 namespace pah {
 namespace {
 
-std::unique_ptr<OIIO::ImageInput> open(const std::filesystem::path& file) {
-  auto input = OIIO::ImageInput::open(file.string());
-  if (input == nullptr) throw FileError(OIIO::geterror());
-  return input;
+template <class Read>
+auto guarded(const Read& read) {
+  try {
+    return read();
+  } catch (const PictureError& error) {
+    throw FileError(error.what());
+  } catch (const std::bad_alloc&) {
+    throw FileError("it takes more memory than there is");
+  } catch (const std::length_error&) {
+    throw FileError("it takes more memory than there can be");
+  }
 }
 
 }  // namespace
 
-ImageHeader read_image_header(const std::filesystem::path& file) {
-  const auto input = open(file);
-  const OIIO::ImageSpec& spec = input->spec();
-  return {spec.width,     spec.height,         spec.depth,
-          spec.nchannels, spec.image_pixels(), spec.image_bytes()};
+ImageHeader read_image_header(const std::filesystem::path& file, std::uint64_t max_bytes) {
+  return guarded([&] {
+    const OpenPicture picture = open_picture(file, max_bytes);
+    return ImageHeader{picture.spec.width, picture.spec.height};
+  });
 }
 
-std::vector<float> read_first_channel(const std::filesystem::path& file) {
-  const auto input = open(file);
-  std::vector<float> values(input->spec().image_pixels());
-  if (!input->read_image(0, 0, 0, 1, OIIO::TypeDesc::FLOAT, values.data()))
-    throw FileError(input->geterror());
-  return values;
+std::uint64_t check_image_file(const std::filesystem::path& file, std::uint64_t max_bytes) {
+  return guarded([&] { return count_unusable(open_picture(file, max_bytes)); });
+}
+
+std::vector<float> read_first_channel(const std::filesystem::path& file, std::uint64_t max_bytes) {
+  return guarded([&] {
+    const OpenPicture picture = open_picture(file, max_bytes);
+    std::vector<float> values(picture.spec.image_pixels());
+    if (!picture.input->read_image(0, 0, 0, 1, OIIO::TypeFloat, values.data()))
+      throw PictureError(reason_of(*picture.input));
+    return values;
+  });
 }
 
 }  // namespace pah

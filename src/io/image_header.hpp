@@ -1,4 +1,4 @@
-// What a picture that a scene names is like, read without decoding it.
+// What a picture that a scene names is like, and whether it can be read.
 #pragma once
 
 #include <cstdint>
@@ -8,15 +8,21 @@
 namespace pah {
 
 struct ImageHeader {
-  int width = 0, height = 0, depth = 0, channels = 0;
-  std::uint64_t pixels = 0;
-  std::uint64_t bytes = 0;  // when decoded as they are stored
+  int width = 0, height = 0;
 };
 
-// Throws FileError, with the reader's own words or none.
-[[nodiscard]] ImageHeader read_image_header(const std::filesystem::path& file);
+// Throws FileError, saying what is wrong without naming the file: also if the picture takes more
+// than `max_bytes` as RGB floats.
+[[nodiscard]] ImageHeader read_image_header(const std::filesystem::path& file,
+                                            std::uint64_t max_bytes);
+
+// Reads the whole picture, and keeps nothing of it; how many of its values are not finite, or as
+// good as infinite, and will be taken for 0. Throws FileError likewise.
+[[nodiscard]] std::uint64_t check_image_file(const std::filesystem::path& file,
+                                             std::uint64_t max_bytes);
 
 // The values of the first channel, row by row from the top. Throws FileError likewise.
-[[nodiscard]] std::vector<float> read_first_channel(const std::filesystem::path& file);
+[[nodiscard]] std::vector<float> read_first_channel(const std::filesystem::path& file,
+                                                    std::uint64_t max_bytes);
 
 }  // namespace pah

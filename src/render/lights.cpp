@@ -172,9 +172,7 @@ Emitter prepare(const EnvironmentLight& light, const TextureStore& textures) {
   std::vector<float> brightness;
   brightness.reserve(emitter.image.pixels.size());
   for (Vec3& pixel : emitter.image.pixels) {
-    for (int channel = 0; channel < 3; ++channel) {
-      if (!(pixel[channel] >= 0) || std::isinf(pixel[channel])) pixel[channel] = 0;
-    }
+    pixel = glm::max(pixel, Vec3(0));
     brightness.push_back(mean_of(emitter.radiance * pixel));
   }
   emitter.distribution.emplace(brightness, emitter.image.width, emitter.image.height);

@@ -9,7 +9,8 @@
 #include <vector>
 
 #include "parallel/parallel_for.hpp"
-#include "scene/texture_linear_input.hpp"
+#include "scene/texture_file.hpp"
+#include "scene/texture_input.hpp"
 
 namespace pah {
 namespace {
@@ -45,63 +46,14 @@ bool is_srgb(const ImageTexture& texture, const OIIO::ImageSpec& spec) {
   return integer && spec.nchannels >= 3;
 }
 
-struct OpenImage {
-  std::unique_ptr<OIIO::ImageInput> input;
-  OIIO::ImageSpec spec;
-};
-
-std::string described(const std::filesystem::path& file, std::string reason) {
-  while (!reason.empty() && (reason.back() == '\n' || reason.back() == ' ')) reason.pop_back();
-  std::string message = "cannot read texture '" + file.string() + "'";
-  if (!reason.empty()) message += ": " + reason;
-  return message;
+std::string described(const std::filesystem::path& file, const std::string& reason) {
+  return "cannot read texture '" + file.string() + "': " + reason;
 }
 
-// A texel is decoded to a float; so is a whole tile at a time, whatever size the file claims.
-double decoded_bytes(const OIIO::ImageSpec& spec) {
-  const double image = static_cast<double>(spec.width) * spec.height;
-  const double tile = static_cast<double>(spec.tile_width) * spec.tile_height;
-  return std::max(image, tile) * spec.nchannels * sizeof(float);
-}
-
-// Reads the header, and refuses what would not fit before anything is decoded.
-OpenImage open_image(TextureId id, const ImageTexture& texture, const TextureOptions& options) {
+OpenPicture open_image(const ImageTexture& texture, const TextureOptions& options) {
   OIIO::ImageSpec config;
   config.attribute("oiio:UnassociatedAlpha", 1);
-  OpenImage image;
-  image.input = OIIO::ImageInput::open(texture.file.string(), &config);
-  if (!image.input) throw TextureError(id, described(texture.file, OIIO::geterror()));
-  image.spec = image.input->spec();
-  const OIIO::ImageSpec& spec = image.spec;
-  if (spec.width < 1 || spec.height < 1 || spec.nchannels < 1 || spec.depth > 1 || spec.deep) {
-    throw TextureError(id, described(texture.file, "not a flat picture"));
-  }
-  if (decoded_bytes(spec) > static_cast<double>(options.max_image_bytes)) {
-    throw TextureError(
-        id, described(texture.file, std::to_string(spec.width) + " x " +
-                                        std::to_string(spec.height) + " pixels of " +
-                                        std::to_string(spec.nchannels) + " channels exceed " +
-                                        std::to_string(options.max_image_bytes >> 20) + " MiB"));
-  }
-  return image;
-}
-
-// A file that ends early shows in its last row.
-void check_last_row(TextureId id, const ImageTexture& texture, OpenImage& image) {
-  const OIIO::ImageSpec& spec = image.spec;
-  const int last = spec.y + spec.height - 1;
-  std::vector<float> texels;
-  bool read = false;
-  if (spec.tile_width > 0) {
-    texels.resize(spec.tile_pixels() * static_cast<std::size_t>(spec.nchannels));
-    const int x = spec.x + (spec.width - 1) / spec.tile_width * spec.tile_width;
-    const int y = spec.y + (spec.height - 1) / spec.tile_height * spec.tile_height;
-    read = image.input->read_tile(x, y, spec.z, OIIO::TypeFloat, texels.data());
-  } else {
-    texels.resize(static_cast<std::size_t>(spec.width) * static_cast<std::size_t>(spec.nchannels));
-    read = image.input->read_scanline(last, spec.z, OIIO::TypeFloat, texels.data());
-  }
-  if (!read) throw TextureError(id, described(texture.file, image.input->geterror()));
+  return open_picture(texture.file, options.max_image_bytes, config);
 }
 
 Vec4 as_rgba(const float* texel, int channels) {
@@ -175,6 +127,7 @@ struct TextureStore::Impl {
 
   void start_system();
   [[nodiscard]] ImageEntry load(TextureId id, const ImageTexture& texture);
+  [[nodiscard]] Image read_whole(TextureId id, const ImageTexture& texture) const;
   [[nodiscard]] Vec4 sample_image(const ImageEntry& image, bool decoded, const glm::dvec2& st,
                                   const glm::dvec2& width) const;
 };
@@ -189,19 +142,22 @@ void TextureStore::Impl::start_system() {
 }
 
 ImageEntry TextureStore::Impl::load(TextureId id, const ImageTexture& texture) {
-  OpenImage opened = open_image(id, texture, options);
-  check_last_row(id, texture, opened);
+  const OpenPicture opened = open_image(texture, options);
+  check_complete(opened);
   ImageEntry entry;
   entry.channels = std::min(opened.spec.nchannels, 4);
   entry.srgb = is_srgb(texture, opened.spec);
   entry.clamp = texture.clamp;
-  entry.data = system->get_texture_handle(OIIO::ustring(texture.file.string()));
-  entry.color = entry.data;
-  if (entry.srgb) {
-    const OIIO::ustring name("linear:" + std::to_string(id) + ":" + texture.file.string());
-    add_linear_image(*system->imagecache(), name, texture.file);
-    entry.color = system->get_texture_handle(name);
-  }
+  // Not by the file's name, by which OpenImageIO would choose a reader itself.
+  const auto handle = [&](TexelDecoding decoding) {
+    const bool decode = decoding == TexelDecoding::srgb;
+    const OIIO::ustring name((decode ? "colors:" : "data:") + std::to_string(id) + ":" +
+                             texture.file.string());
+    add_picture(*system->imagecache(), name, texture.file, decoding);
+    return system->get_texture_handle(name);
+  };
+  entry.data = handle(TexelDecoding::none);
+  entry.color = entry.srgb ? handle(TexelDecoding::srgb) : entry.data;
   return entry;
 }
 
@@ -225,6 +181,22 @@ Vec4 TextureStore::Impl::sample_image(const ImageEntry& image, bool decoded, con
   return as_rgba(texel.data(), image.channels);
 }
 
+Image TextureStore::Impl::read_whole(TextureId id, const ImageTexture& texture) const {
+  const OpenPicture opened = open_image(texture, options);
+  const OIIO::ImageSpec& spec = opened.spec;
+  const auto channels = static_cast<std::size_t>(spec.nchannels);
+  Image image{spec.width, spec.height, {}};
+  image.pixels.reserve(spec.image_pixels());
+  read_rows(opened, [&](std::span<float> values) {
+    clear_unusable(values);
+    if (entries[id].image.srgb)
+      decode_srgb(values.data(), values.size() / channels, spec.nchannels, spec.alpha_channel);
+    for (std::size_t i = 0; i < values.size(); i += channels)
+      image.pixels.emplace_back(as_rgba(&values[i], std::min(spec.nchannels, 4)));
+  });
+  return image;
+}
+
 TextureStore::TextureStore(std::span<const Texture> textures, const TextureOptions& options)
     : impl_(std::make_unique<Impl>()) {
   impl_->options = options;
@@ -245,8 +217,6 @@ TextureStore::TextureStore(std::span<const Texture> textures, const TextureOptio
     entry.offset = image.offset;
     try {
       entry.image = impl_->load(static_cast<TextureId>(i), image);
-    } catch (const TextureError& error) {
-      errors[i] = error;
     } catch (const std::exception& error) {
       errors[i].emplace(static_cast<TextureId>(i), described(image.file, error.what()));
     }
@@ -286,23 +256,11 @@ float TextureStore::scalar(const ScalarInput& input, Vec2 uv, float footprint) c
 Image TextureStore::image(TextureId id) const {
   const auto* texture = std::get_if<ImageTexture>(&impl_->textures[id]);
   if (!texture) throw TextureError(id, "a checkerboard is no image");
-  OpenImage opened = open_image(id, *texture, impl_->options);
-  const auto channels = static_cast<std::size_t>(opened.spec.nchannels);
-  const auto width = static_cast<std::size_t>(opened.spec.width);
-  const auto height = static_cast<std::size_t>(opened.spec.height);
-  std::vector<float> texels(width * height * channels);
-  if (!opened.input->read_image(0, 0, 0, opened.spec.nchannels, OIIO::TypeFloat, texels.data())) {
-    throw TextureError(id, described(texture->file, opened.input->geterror()));
+  try {
+    return impl_->read_whole(id, *texture);
+  } catch (const std::exception& error) {
+    throw TextureError(id, described(texture->file, error.what()));
   }
-  if (impl_->entries[id].image.srgb) {
-    decode_srgb(texels.data(), width * height, opened.spec.nchannels, opened.spec.alpha_channel);
-  }
-  Image image{opened.spec.width, opened.spec.height, {}};
-  image.pixels.resize(width * height);
-  for (std::size_t i = 0; i < image.pixels.size(); ++i) {
-    image.pixels[i] = Vec3{as_rgba(&texels[i * channels], std::min(opened.spec.nchannels, 4))};
-  }
-  return image;
 }
 
 }  // namespace pah

@@ -22,7 +22,7 @@ class TextureError : public std::runtime_error {
 };
 
 struct TextureOptions {
-  std::uint64_t max_image_bytes = 4ULL << 30;  // of one decoded image, as floats
+  std::uint64_t max_image_bytes = 4ULL << 30;  // of one decoded image, as RGB floats
   int cache_megabytes = 1024;                  // tiles held in memory
 };
 
@@ -41,8 +41,8 @@ class TextureStore {
 
   // The texture about (u, v), v = 0 being the image's bottom row, averaged over a footprint given
   // in texture coordinates (0: the finest level, interpolated). Images without alpha have alpha 1;
-  // one-channel images are gray. Where the file fails to decode, or the coordinates are not finite:
-  // black.
+  // one-channel images are gray. What is not finite in the file is 0. Where the file fails to
+  // decode, or the coordinates are not finite: black.
   [[nodiscard]] Vec4 sample(TextureId id, Vec2 uv, TextureUse use = TextureUse::color,
                             Vec2 footprint = Vec2{0}) const noexcept;
 

@@ -14,7 +14,7 @@ TEST_CASE("inspect reports, and writes what it is asked for") {
   const CurrentTemporaryFolder folder;
   write_file("scene.yaml", small_scene);
   const Outcome outcome =
-      run({"inspect", "scene.yaml", "--width", "40", "-D", "film.height=20", "--json", "r.json",
+      run({"inspect", "scene.yaml", "--width", "40", "-D", "film.width=64", "--json", "r.json",
            "--csv", "r.csv", "--heatmap", "heat.png", "--boxes", "boxes.gltf", "--levels", "2"});
   INFO(outcome.err);
   REQUIRE(outcome.exit_code == 0);
@@ -33,7 +33,7 @@ TEST_CASE("inspect reports, and writes what it is asked for") {
   CHECK(bvh["triangles"] == 14);
   CHECK(bvh["nodes"] == 2 * bvh["leaves"].get<int>() - 1);
   CHECK(bvh["expected_cost"].get<double>() > 0);
-  CHECK(bvh["camera_rays"]["rays"] == 40 * 20);
+  CHECK(bvh["camera_rays"]["rays"] == 40 * 15);
   CHECK(bvh["camera_rays"]["hits"].get<int>() > 0);
   CHECK(bvh["camera_rays"]["nodes_per_ray"].get<double>() > 0);
   CHECK(bvh["memory_bytes"].get<int>() > 0);
@@ -62,7 +62,7 @@ TEST_CASE("inspect reports, and writes what it is asked for") {
 
   const pah::Image heat = pah::read_image("heat.png");
   CHECK(heat.width == 2 * 40);
-  CHECK(heat.height == 20);
+  CHECK(heat.height == 15);
   CHECK(nlohmann::json::parse(read_file("boxes.gltf"))["meshes"].size() == 2);
 }
 

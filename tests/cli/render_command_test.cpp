@@ -100,6 +100,20 @@ TEST_CASE("the command line overrides the scene") {
   CHECK(read_json("stats.json")["samples"] == 2);
 }
 
+TEST_CASE("switch --width or --height alone keeps the aspect of the scene") {
+  const CurrentTemporaryFolder folder;
+  write_file("scene.yaml", small_scene);  // 32 x 24
+  const auto size = [](const char* option, const char* value) {
+    render({"scene.yaml", "-o", "out.exr", option, value, "--spp", "1"});
+    const pah::Image image = pah::read_image("out.exr");
+    return std::pair(image.width, image.height);
+  };
+  CHECK(size("--width", "64") == std::pair(64, 48));
+  CHECK(size("--height", "6") == std::pair(8, 6));
+  CHECK(size("--width", "15") == std::pair(15, 11));
+  CHECK(size("--height", "1") == std::pair(1, 1));
+}
+
 TEST_CASE("switch --exposure counts in stops, in low dynamic range files only") {
   const CurrentTemporaryFolder folder;
   write_file("scene.yaml", small_scene);
@@ -173,6 +187,24 @@ TEST_CASE("EXR files say how they were made and hold the layers asked for") {
 
   render({"scene.yaml", "-o", "half.exr", "--half"});
   CHECK(OIIO::ImageInput::open("half.exr")->spec().channelformat(0) == OIIO::TypeHalf);
+}
+
+TEST_CASE("PNG files have 16 bits with --png-bits, and no room for layers, which is said") {
+  const CurrentTemporaryFolder folder;
+  write_file("scene.yaml", small_scene);
+  render({"scene.yaml", "-o", "out.PNG", "--png-bits", "16"});
+  CHECK(OIIO::ImageInput::open("out.PNG")->spec().format == OIIO::TypeUInt16);
+  const Outcome outcome = run({"scene.yaml", "-o", "out.png", "-D", "film.channels=[depth]"});
+  CHECK(outcome.exit_code == 0);
+  CHECK(outcome.err.starts_with("warning: out.png has no room for the 'channels' of film"));
+}
+
+TEST_CASE("TIFF files are linear, as EXR files are") {
+  const CurrentTemporaryFolder folder;
+  write_file("scene.yaml", small_scene);
+  render({"scene.yaml", "-o", "out.exr"});
+  render({"scene.yaml", "-o", "out.tif", "--exposure", "-20"});
+  CHECK(identical("out.exr", "out.tif"));
 }
 
 TEST_CASE("switch --time-limit ends a render that would take for ever") {

@@ -3,6 +3,7 @@
 
 #include "catch.hpp"
 #include "program.hpp"
+#include "support/picture_bytes.hpp"
 #include "support/temporary_folder.hpp"
 
 using namespace pah::testing;
@@ -58,6 +59,9 @@ TEST_CASE("wrong usage exits with 2 and says what is wrong") {
   check_failure({"scene.yaml", "--width", "65537"}, 2, "--width");
   check_failure({"scene.yaml", "--height", "0"}, 2, "--height");
   check_failure({"scene.yaml", "--width", "65536", "--height", "65536"}, 2, "too large");
+  check_failure({"scene.yaml", "--width", "1000", "-D", "film.width=1", "-D", "film.height=100"}, 2,
+                "1000 x 100000 pixels is too large");
+  check_failure({"scene.yaml", "--width", "16", "--crop", "0,17,0,12"}, 2, "16 x 12");
   check_failure({"scene.yaml", "--threads", "-1"}, 2, "--threads");
   check_failure({"scene.yaml", "--seed", "-1"}, 2, "--seed");
   check_failure({"scene.yaml", "--time-limit", "nan"}, 2, "--time-limit");
@@ -65,6 +69,10 @@ TEST_CASE("wrong usage exits with 2 and says what is wrong") {
   for (const char* crop : {"", "1,2,3", "0,1,0,1,", "0,0,0,1", "2,1,0,1", "-1,1,0,1", "a,b,c,d"})
     check_failure({"scene.yaml", "--crop", crop}, 2, "--crop");
   check_failure({"scene.yaml", "--crop", "0,33,0,24"}, 2, "crop");
+  check_failure({"scene.yaml", "--png-bits", "12"}, 2, "--png-bits");
+  check_failure({"scene.yaml", "-o", "out.exr", "--png-bits", "16"}, 2, "--png-bits is for .png");
+  check_failure({"scene.yaml", "--half"}, 2, "--half is for .exr files; the picture is scene.png");
+  check_failure({"scene.yaml", "-o", "out.tif", "--half"}, 2, "--half");
   check_failure({"--spp", "4", "compare", "a.png", "b.png"}, 2, "--spp");
 }
 
@@ -106,6 +114,24 @@ TEST_CASE("a wrong override is an error of the scene") {
   write_file("scene.yaml", small_scene);
   check_failure({"scene.yaml", "-D", "render.sampels=4"}, 3, "sampels");
   check_failure({"scene.yaml", "-D", "film.width=-3"}, 3, "width");
+}
+
+TEST_CASE("a picture that ends early is an error of the scene, with and without --check") {
+  const CurrentTemporaryFolder folder;
+  write_file("sky.tga", pah::test::tga(4, 4, "too few"));
+  write_file("scene.yaml", "lights: [{type: environment, image: sky.tga}]\n");
+  check_failure({"scene.yaml"}, 3, "scene.yaml:1:37: error: cannot read image 'sky.tga'");
+  check_failure({"scene.yaml", "--check"}, 3, "scene.yaml:1:37: error: cannot read image");
+}
+
+TEST_CASE("a picture with infinite values is warned of, unless --quiet") {
+  const CurrentTemporaryFolder folder;
+  write_file("sky.hdr", "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 1\n\xFF\xFF\xFF\xFF");
+  write_file("scene.yaml", "lights: [{type: environment, image: sky.hdr}]\n");
+  const Outcome outcome = run({"scene.yaml", "--check"});
+  CHECK(outcome.exit_code == 0);
+  CHECK(contains(outcome.err, "scene.yaml:1:37: warning: image 'sky.hdr' has 3 values"));
+  CHECK(run({"scene.yaml", "--check", "--quiet"}).err.empty());
 }
 
 TEST_CASE("switch --check loads and writes nothing") {

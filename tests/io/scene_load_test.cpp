@@ -6,6 +6,7 @@
 #include "io/scene/files.hpp"
 #include "io/yaml/suggest.hpp"
 #include "scene_testing.hpp"
+#include "support/picture_bytes.hpp"
 
 using namespace pah;
 
@@ -217,14 +218,14 @@ TEST_CASE("a mesh file without a material is gray, whatever materials the scene 
 
 TEST_CASE("textures stand for colors and numbers") {
   const TemporaryFolder folder;
-  write_text(folder / "picture.ppm", "P3\n2 2\n255\n1 2 3 4 5 6 7 8 9 10 11 12\n");
+  write_text(folder / "picture.tga", test::tga(2, 2, "twelve bytes"));
   const Scene scene = load_scene(write_text(folder / "scene.yaml", R"(
 textures:
-  wood: {type: image, file: picture.ppm, scale: 3, offset: [0, 0.5], wrap: clamp}
+  wood: {type: image, file: picture.tga, scale: 3, offset: [0, 0.5], wrap: clamp}
 materials:
   a: {type: plastic, reflectance: {texture: wood, scale: 0.5}, roughness: {texture: wood, channel: g, scale: 0.25}}
-  b: {type: diffuse, reflectance: {image: picture.ppm}, normal_map: {image: picture.ppm}}
-  c: {type: diffuse, reflectance: {image: picture.ppm}, opacity: {image: picture.ppm, channel: a}}
+  b: {type: diffuse, reflectance: {image: picture.tga}, normal_map: {image: picture.tga}}
+  c: {type: diffuse, reflectance: {image: picture.tga}, opacity: {image: picture.tga, channel: a}}
 )"))
                           .scene;
   const auto& a = std::get<PlasticMaterial>(scene.materials[0].model);
@@ -245,7 +246,7 @@ materials:
         std::get<DiffuseMaterial>(scene.materials[2].model).reflectance.texture);
   CHECK(scene.textures.size() == 4);
   LoadOptions options;
-  options.limits.image_bytes = 11;
+  options.limits.image_bytes = 47;
   CHECK_THROWS_AS(load_scene(folder / "scene.yaml", options), SceneError);
 }
 
@@ -313,14 +314,14 @@ meshes: [{name: floor, shape: box}, {name: ball, shape: sphere, material: white}
 
 TEST_CASE("the hash tells scenes apart, and knows the files") {
   const TemporaryFolder folder;
-  write_text(folder / "a.ppm", "P3\n1 1\n255\n1 2 3\n");
+  write_text(folder / "a.tga", test::tga(1, 1, "abc"));
   const auto file =
-      write_text(folder / "scene.yaml", "textures: {t: {type: image, file: a.ppm}}\n");
+      write_text(folder / "scene.yaml", "textures: {t: {type: image, file: a.tga}}\n");
   const std::string hash = load_scene(file).hash;
   CHECK(hash.size() == 32);
   CHECK(load_scene(file).hash == hash);
   CHECK(load_scene(file, {{"render.seed=1"}, {}}).hash != hash);
-  write_text(folder / "a.ppm", "P3\n1 1\n255\n1 2 4\n");
+  write_text(folder / "a.tga", test::tga(1, 1, "abd"));
   CHECK(load_scene(file).hash != hash);
   CHECK(load("render: {seed: 1}").hash != load("render: {seed: 2}").hash);
 }

@@ -10,6 +10,7 @@
 #include "json_schema.hpp"
 #include "scene_testing.hpp"
 #include "support/paths.hpp"
+#include "support/picture_bytes.hpp"
 
 using namespace pah;
 using Json = nlohmann::json;
@@ -100,7 +101,7 @@ Json some_value(const std::string& key, const Json& property) {
   if (property.contains("enum")) return property["enum"][0];
   if (property.contains("default")) return property["default"];
   if (key == "light") return "camera";
-  if (key == "file") return "picture.ppm";
+  if (key == "file") return "picture.tga";
   if (key == "texture") return "t";
   if (key == "axis") return "x";
   if (property.value("type", "") == "array") {
@@ -175,7 +176,7 @@ TEST_CASE("a key, an option or a requirement too many is seen") {
 TEST_CASE("schema and parser accept the same values") {
   const JsonSchema validator(schema());
   const TemporaryFolder folder;
-  write_text(folder / "picture.ppm", "P3\n2 2\n255\n1 2 3 4 5 6 7 8 9 10 11 12\n");
+  write_text(folder / "picture.tga", test::tga(2, 2, "twelve bytes"));
   int probes = 0;
   for (const auto& [name, definition] : schema()["$defs"].items()) {
     if (!definition.contains("properties") || name.ends_with("_file")) continue;
@@ -184,7 +185,7 @@ TEST_CASE("schema and parser accept the same values") {
       base[key] = some_value(key, definition["properties"][key]);
     if (definition.contains("oneOf")) {  // one key of several must be there
       const std::string key = definition["oneOf"].back()["required"][0];
-      base[key] = key == "image" ? Json("picture.ppm") : Json::parse("[[1, 2], [3, 4]]");
+      base[key] = key == "image" ? Json("picture.tga") : Json::parse("[[1, 2], [3, 4]]");
     }
     for (const auto& [key, property] : definition["properties"].items()) {
       if (key == "crop" || key == "matrix") continue;  // their numbers hang together

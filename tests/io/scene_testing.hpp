@@ -20,10 +20,9 @@ inline pah::LoadedScene load(std::string_view text, const pah::LoadOptions& opti
   return pah::load_scene(write_text(folder / "scene.yaml", text), options);
 }
 
-// All errors of a text, formatted without excerpts, one a line, the folder left out.
-inline std::string errors_of(std::string_view text, const pah::LoadOptions& options = {}) {
-  const pah::TemporaryFolder folder;
-  const auto file = write_text(folder / "scene.yaml", text);
+// All errors of a scene file, formatted without excerpts, one a line, the folder left out.
+inline std::string errors_in(const std::filesystem::path& file,
+                             const pah::LoadOptions& options = {}) {
   std::string result;
   try {
     (void)pah::load_scene(file, options);
@@ -35,4 +34,10 @@ inline std::string errors_of(std::string_view text, const pah::LoadOptions& opti
     }
   }
   return result;
+}
+
+// Of a text.
+inline std::string errors_of(std::string_view text, const pah::LoadOptions& options = {}) {
+  const pah::TemporaryFolder folder;
+  return errors_in(write_text(folder / "scene.yaml", text), options);
 }

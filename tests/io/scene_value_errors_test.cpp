@@ -91,9 +91,9 @@ TEST_CASE("bad materials and textures") {
       {"materials: {m: {type: diffuse, reflectance: {image: no.png}}}",
        "scene.yaml:1:53: error: file 'no.png' does not exist"},
       {"materials: {m: {type: diffuse, reflectance: {image: scene.yaml}}}",
-       "scene.yaml:1:53: error: cannot read image 'scene.yaml': OpenImageIO could not find a "
-       "format reader for \"scene.yaml\". Is it a file format that OpenImageIO doesn't know "
-       "about?"},
+       "scene.yaml:1:53: error: cannot read image 'scene.yaml': its first bytes "
+       "are of no picture format that is read; those are PNG, JPEG, EXR, Radiance HDR, TIFF, BMP, "
+       "WebP, TGA"},
       {"textures: {t: {type: image, file: .}}", "scene.yaml:1:35: error: '.' is a directory"},
   });
 }

@@ -18,9 +18,10 @@
 #include "catch.hpp"
 #include "image/srgb.hpp"
 #include "parallel/parallel_for.hpp"
-#include "scene/texture_linear_input.hpp"
+#include "scene/texture_input.hpp"
 #include "scene/texture_store.hpp"
 #include "support/paths.hpp"
+#include "support/picture_bytes.hpp"
 
 using namespace pah;
 namespace fs = std::filesystem;
@@ -321,11 +322,8 @@ TEST_CASE("an image beyond the limit is refused before it is decoded") {
   CHECK_THAT(error_of({file}, options), contains_text("100 x 100"));
 
   // A header that claims 65535 x 65535 over a few bytes of data.
-  const std::string header{
-      "P6 65535 65535 255\n"
-      "abc"};
-  std::ofstream(folder / "huge.ppm", std::ios::binary) << header;
-  CHECK_THAT(error_of({folder / "huge.ppm"}), contains_text("65535 x 65535"));
+  std::ofstream(folder / "huge.tga", std::ios::binary) << test::tga(65535, 65535, "abc");
+  CHECK_THAT(error_of({folder / "huge.tga"}), contains_text("65535 x 65535"));
 }
 
 TEST_CASE("damaged files are refused or black, never fatal") {

@@ -1,5 +1,5 @@
-// Pictures to and from files, by OpenImageIO: PNG and JPEG (8-bit sRGB), TIFF (16-bit sRGB), HDR
-// (RGBE) and EXR (linear floats).
+// Pictures to and from files, by OpenImageIO: written as PNG (8- or 16-bit sRGB), JPEG (8-bit
+// sRGB), HDR (RGBE), TIFF and EXR (linear floats).
 #pragma once
 
 #include <cstdint>
@@ -22,7 +22,8 @@ struct ImageLayer {
 };
 
 struct WriteOptions {
-  double exposure = 0;      // stops; PNG, JPEG and TIFF only
+  double exposure = 0;      // stops; PNG and JPEG only
+  int png_bits = 8;         // or 16
   bool full_float = false;  // EXR: 32-bit colors; depth and variance always are
   ImageMetadata metadata;
 };
@@ -35,12 +36,13 @@ void check_writable(const std::filesystem::path& file);
 
 // The first layer is the picture; the others go to formats that hold them (EXR) only. Written
 // beside `file` under another name and renamed when complete. The same picture gives the same
-// bytes. Throws FileError, and std::invalid_argument unless all layers are of one size.
+// bytes. Throws FileError, and std::invalid_argument unless all layers are of one size and png_bits
+// is 8 or 16.
 void write_image(const std::filesystem::path& file, const std::vector<ImageLayer>& layers,
                  const WriteOptions& options = {});
 
 // R, G and B (or the first three channels, or the first, thrice), linear: 8- and 16-bit colors are
-// taken for sRGB. Throws FileError, also if the picture is larger than `max_bytes` as floats.
+// taken for sRGB. Throws FileError, also if the picture is larger than `max_bytes` as RGB floats.
 [[nodiscard]] Image read_image(const std::filesystem::path& file,
                                std::uint64_t max_bytes = 4ULL << 30);
 

@@ -58,7 +58,7 @@ ImportedFile add_file(SceneReading& reading, MeshFile file, const Mark& mark) {
     if (const auto* image = std::get_if<ImageTexture>(&texture);
         image != nullptr &&
         reading.files.open(reading.context, mark, image->file, reading.limits.image_bytes))
-      check_image(reading, mark, image->file);
+      reading.pictures.emplace(image->file, mark);
     scene.textures.push_back(std::move(texture));
   }
   const auto shift = [&](TextureId& id) {

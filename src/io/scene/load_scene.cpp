@@ -153,6 +153,7 @@ LoadedScene load_scene(const fs::path& file, const LoadOptions& options) {
         for (const YamlEntry& entry : root->entries)
           if (entry.key.starts_with("x-")) map.find(entry.key);
       });
+      check_pictures(reading);
     }
   } catch (const YamlError& error) {
     for (YamlFault& fault : faults) errors.add(fault.mark, std::move(fault.message));

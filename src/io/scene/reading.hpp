@@ -1,6 +1,7 @@
 // The sections of a scene, read one by one into a Scene.
 #pragma once
 
+#include <map>
 #include <optional>
 #include <pah/io/load_scene.hpp>
 #include <pah/io/mesh_file.hpp>
@@ -57,6 +58,7 @@ struct SceneReading {
   NameTable lights{"light"};
   std::unordered_map<std::string, TextureId> images{};       // inline ones, by path and color space
   std::unordered_map<TextureId, TextureId> linear_copies{};  // of images used as numbers
+  std::map<std::filesystem::path, Mark> pictures{};  // of textures, and where each is first named
   std::vector<std::size_t> first_instances{};  // by id in `meshes`; no_instance if it has none
   std::unordered_map<std::string, ImportedFile> imported{};  // mesh files, by path and options
   std::unordered_map<int, MaterialId> unnamed_materials{};   // by reflectance in percent
@@ -117,7 +119,7 @@ void read_geometry(SceneReading& reading, MapReader& map, const GeometryUse& use
 // A gray diffuse material that the scene does not name, made when first needed.
 [[nodiscard]] MaterialId unnamed_material(SceneReading& reading, int percent);
 
-// Reports an image that cannot be read or is too large.
-bool check_image(SceneReading& reading, const Mark& mark, const std::filesystem::path& file);
+// Reports the pictures that cannot be read or are too large; warns of values that are not numbers.
+void check_pictures(SceneReading& reading);
 
 }  // namespace pah

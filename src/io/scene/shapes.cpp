@@ -55,28 +55,24 @@ bool read_height_image(SceneReading& reading, MapReader& map, const YamlNode& no
   const ValueName name = map.name_of("image");
   const auto file = reading.files.open(reading.context, node, name, reading.limits.image_bytes);
   if (!file) return false;
-  const auto fail = [&](const std::string& message) {
-    map.error("image", "image '" + file->filename().string() + "' " + message);
-    return false;
-  };
-  ImageHeader header;
+  const std::string shown = "image '" + file->filename().string() + "'";
   try {
-    header = read_image_header(*file);
-  } catch (const FileError&) {
-    return fail("cannot be read");
-  }
-  if (header.width < 2 || header.height < 2 || header.channels < 1 ||
-      header.pixels > most_heights / 2 || header.pixels * 2 > reading.limits.triangles)
-    return fail("has " + std::to_string(header.width) + " x " + std::to_string(header.height) +
-                " pixels: too few or too many for heights");
-  shape.columns = header.width;
-  shape.rows = header.height;
-  try {
-    shape.heights = read_first_channel(*file);
+    const auto [width, height] = read_image_header(*file, reading.limits.image_bytes);
+    const std::uint64_t pixels = static_cast<std::uint64_t>(width) * static_cast<unsigned>(height);
+    if (width < 2 || height < 2 || pixels > most_heights / 2 ||
+        pixels * 2 > reading.limits.triangles) {
+      map.error("image", shown + " has " + std::to_string(width) + " x " + std::to_string(height) +
+                             " pixels: too few or too many for heights");
+      return false;
+    }
+    shape.columns = width;
+    shape.rows = height;
+    shape.heights = read_first_channel(*file, reading.limits.image_bytes);
+    return true;
   } catch (const FileError& error) {
-    return fail("cannot be read: " + std::string(error.what()));
+    map.error("image", "cannot read " + shown + ": " + error.what());
+    return false;
   }
-  return true;
 }
 
 bool read_height_rows(MapReader& map, const YamlNode& node, HeightFieldShape& shape) {

@@ -1,6 +1,5 @@
 // The textures section, and colors and scalars that a texture may stand for.
 #include "image/srgb.hpp"
-#include "io/image_header.hpp"
 #include "io/scene/reading.hpp"
 
 namespace pah {
@@ -11,7 +10,7 @@ using Kind = YamlNode::Kind;
 std::optional<std::filesystem::path> open_image(SceneReading& reading, const YamlNode& node,
                                                 const ValueName& name) {
   auto file = reading.files.open(reading.context, node, name, reading.limits.image_bytes);
-  if (!file || !check_image(reading, node.mark, *file)) return {};
+  if (file) reading.pictures.emplace(*file, node.mark);
   return file;
 }
 
@@ -99,33 +98,6 @@ bool parse_hex_color(const std::string& text, Vec3& value) {
 }
 
 }  // namespace
-
-// The decoded size comes from the header alone: nothing is decoded here.
-bool check_image(SceneReading& reading, const Mark& mark, const std::filesystem::path& file) {
-  const std::string shown = "image '" + file.filename().string() + "'";
-  ImageHeader header;
-  try {
-    header = read_image_header(file);
-  } catch (const FileError& error) {
-    std::string why = error.what();
-    if (const std::size_t end = why.find('\n'); end != std::string::npos) why.resize(end);
-    if (const std::size_t at = why.find(file.string()); at != std::string::npos)
-      why.replace(at, file.string().size(), file.filename().string());
-    reading.context.errors.add(mark, "cannot read " + shown + (why.empty() ? "" : ": " + why));
-    return false;
-  }
-  if (header.width < 1 || header.height < 1 || header.channels < 1 || header.depth > 1) {
-    reading.context.errors.add(mark, shown + " is not a picture");
-    return false;
-  }
-  if (header.bytes > reading.limits.image_bytes) {
-    reading.context.errors.add(mark, shown + " takes " + std::to_string(header.bytes) +
-                                         " bytes; the limit is " +
-                                         std::to_string(reading.limits.image_bytes));
-    return false;
-  }
-  return true;
-}
 
 std::optional<TextureId> image_texture(SceneReading& reading, const YamlNode& node,
                                        const ValueName& name, ColorSpace color_space) {

@@ -1,0 +1,121 @@
+#include "scene/texture_input.hpp"
+
+#include <exception>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "image/srgb.hpp"
+#include "scene/texture_file.hpp"
+
+namespace pah {
+
+void decode_srgb(float* texels, std::size_t count, int channels, int alpha_channel) {
+  for (std::size_t i = 0; i < count; ++i) {
+    for (int c = 0; c < channels; ++c, ++texels) {
+      if (c != alpha_channel) *texels = linear_from_srgb(*texels);
+    }
+  }
+}
+
+namespace {
+
+constexpr const char* file_attribute = "pah:file";
+constexpr const char* srgb_attribute = "pah:srgb";
+
+// Reads through the file's own reader and hands on what that says of tiles, levels and sizes.
+// Decoded 8-bit colors become half, which keeps them apart; wider ones float.
+class PictureInput final : public OIIO::ImageInput {
+ public:
+  const char* format_name() const override { return "pah_picture"; }
+
+  bool open(const std::string& /*name*/, OIIO::ImageSpec& /*spec*/) override { return false; }
+
+  bool open(const std::string& /*name*/, OIIO::ImageSpec& spec,
+            const OIIO::ImageSpec& config) override {
+    try {
+      picture_ = open_picture(config.get_string_attribute(file_attribute).c_str(),
+                              most_picture_bytes, config);
+    } catch (const PictureError& error) {
+      errorfmt("{}", error.what());
+      return false;
+    }
+    srgb_ = config.get_int_attribute(srgb_attribute) != 0;
+    adopt_spec();
+    spec = m_spec;
+    return true;
+  }
+
+  bool close() override { return picture_.input == nullptr || picture_.input->close(); }
+  int current_subimage() const override { return 0; }
+  int current_miplevel() const override { return picture_.input->current_miplevel(); }
+
+  // Only the first picture of a file is ever asked for; its levels claim sizes of their own.
+  bool seek_subimage(int subimage, int miplevel) override {
+    if (subimage != 0 || !picture_.input->seek_subimage(0, miplevel)) return false;
+    adopt_spec();
+    return decoded_bytes(m_spec) <= static_cast<double>(most_picture_bytes);
+  }
+
+  bool read_native_scanline(int subimage, int miplevel, int y, int z, void* data) override {
+    const lock_guard lock(*this);
+    if (!seek_subimage(subimage, miplevel)) return false;
+    const std::size_t count = static_cast<std::size_t>(m_spec.width);
+    return deliver(count, data, [&](OIIO::TypeDesc type, void* texels) {
+      return picture_.input->read_scanline(y, z, type, texels);
+    });
+  }
+
+  bool read_native_tile(int subimage, int miplevel, int x, int y, int z, void* data) override {
+    const lock_guard lock(*this);
+    if (!seek_subimage(subimage, miplevel)) return false;
+    return deliver(m_spec.tile_pixels(), data, [&](OIIO::TypeDesc type, void* texels) {
+      return picture_.input->read_tile(x, y, z, type, texels);
+    });
+  }
+
+ private:
+  void adopt_spec() {
+    const OIIO::ImageSpec& spec = picture_.input->spec();
+    m_spec = spec;
+    const bool one_format = spec.channelformats.empty();
+    if (srgb_)
+      m_spec.set_format(spec.format == OIIO::TypeUInt8 ? OIIO::TypeHalf : OIIO::TypeFloat);
+    else
+      m_spec.set_format(one_format ? spec.format : OIIO::TypeFloat);
+    m_spec.channelformats.clear();
+  }
+
+  template <class Read>
+  bool deliver(std::size_t count, void* data, const Read& read) {
+    const std::size_t values = count * static_cast<std::size_t>(m_spec.nchannels);
+    const bool as_stored = !srgb_ && !m_spec.format.is_floating_point();
+    if (!as_stored) texels_.resize(values);
+    if (!(as_stored ? read(m_spec.format, data) : read(OIIO::TypeFloat, texels_.data()))) {
+      errorfmt("{}", reason_of(*picture_.input));
+      return false;
+    }
+    if (as_stored) return true;
+    clear_unusable(texels_);
+    if (srgb_) decode_srgb(texels_.data(), count, m_spec.nchannels, m_spec.alpha_channel);
+    return OIIO::convert_types(OIIO::TypeFloat, texels_.data(), m_spec.format, data,
+                               static_cast<int>(values));
+  }
+
+  OpenPicture picture_;
+  bool srgb_ = false;
+  std::vector<float> texels_;
+};
+
+}  // namespace
+
+bool add_picture(OIIO::ImageCache& cache, const OIIO::ustring& name,
+                 const std::filesystem::path& file, TexelDecoding decoding) {
+  OIIO::ImageSpec config;
+  config.attribute(file_attribute, file.string());
+  config.attribute(srgb_attribute, decoding == TexelDecoding::srgb ? 1 : 0);
+  return cache.add_file(
+      name, []() -> OIIO::ImageInput* { return new PictureInput; }, &config);
+}
+
+}  // namespace pah
