@@ -22,14 +22,15 @@ DVec3 over(const DVec3& sum, std::uint32_t count) {
 DVec3 variance_of_mean(const FilmPixel& pixel) {
   if (pixel.samples < 2) return DVec3{0};
   const auto n = static_cast<double>(pixel.samples);
-  const DVec3 squares = pixel.sum_of_squares - pixel.sum * (pixel.sum / n);
+  const DVec3 sum = pixel.radiance();
+  const DVec3 squares = pixel.sum_of_squares - sum * (sum / n);
   return glm::max(squares, DVec3{0}) / (n * (n - 1));
 }
 
 }  // namespace
 
 Image radiance_of(const Film& film) {
-  return image_of(film, [](const FilmPixel& p) { return over(p.sum, p.samples); });
+  return image_of(film, [](const FilmPixel& p) { return over(p.radiance(), p.samples); });
 }
 
 Image albedo_of(const Film& film) {
@@ -54,7 +55,7 @@ ErrorEstimate estimate_error(const Film& film) {
   double bias = 0;
   for (const FilmPixel& pixel : film.pixels) {
     if (pixel.samples < 2) continue;
-    const DVec3 mean = over(pixel.sum, pixel.samples);
+    const DVec3 mean = over(pixel.radiance(), pixel.samples);
     const DVec3 variance = variance_of_mean(pixel);
     // mean^2 exceeds the square of the true value by the variance, on average.
     const DVec3 reference = glm::max(mean * mean - variance, DVec3{0});

@@ -320,9 +320,7 @@ void PathTracer::accumulate(const PixelRect& tile, int count, PathBatch& batch, 
           ++batch.counts.nan_samples;
           continue;
         }
-        const DVec3 radiance(sample.radiance);
-        pixel.sum += radiance;
-        pixel.sum_of_squares += radiance * radiance;
+        pixel.add_radiance(DVec3(sample.radiance));
         pixel.albedo += DVec3(sample.albedo);
         pixel.normal += DVec3(sample.normal);
         if (sample.depth >= 0) {

@@ -1,5 +1,6 @@
 // Local BVHs answer like brute force, whatever the areas are declared to be.
 #include <algorithm>
+#include <array>
 #include <pah/accel/local_bvhs.hpp>
 
 #include "catch.hpp"
@@ -12,7 +13,6 @@ using namespace pah::test;
 namespace {
 
 constexpr std::uint32_t lamp = 0, sun = 1, stray = 2;
-constexpr std::size_t rays_each = 3000;
 
 struct Setting {
   Vec3 eye;
@@ -23,7 +23,7 @@ struct Setting {
 
 // Areas that overlap, cut triangles, have a near plane, hold the eye, or are of another light than
 // their rays say; and the rays that they are asked.
-Setting make_setting(const Soup& soup, std::uint32_t seed) {
+Setting make_setting(const Soup& soup, std::uint32_t seed, std::size_t rays_each = 3000) {
   Random random(seed);
   Aabb box = bounds_of(soup.triangles());
   const Vec3 size = glm::max(box.extent(), Vec3(1e-3F * glm::length(box.extent())));
@@ -94,6 +94,24 @@ TEST_CASE("Local BVHs answer like brute force, bit for bit") {
         const auto local = make_local_bvhs(soup.triangles(), setting.areas, config);
         check_same(expected, ask(*local, setting.rays));
       }
+    }
+  }
+}
+
+TEST_CASE("Local BVHs answer like brute force, 1e7 rays", "[full]") {
+  std::uint32_t seed = 100;
+  std::size_t rays = 0;
+  while (rays < 10'000'000) {
+    for (const Soup& soup : all_soups()) {
+      if (soup.indices.empty()) continue;
+      CAPTURE(soup.name, seed);
+      const Setting setting = make_setting(soup, ++seed, 12'000);
+      LocalConfig config;
+      config.heuristic = seed % 2 == 0 ? Heuristic::surface_area : Heuristic::projected_area;
+      config.split = std::array{SplitAxis::best, SplitAxis::longest, SplitAxis::facing}[seed % 3];
+      const auto local = make_local_bvhs(soup.triangles(), setting.areas, config);
+      check_same(ask(*make_brute_force(soup.triangles()), setting.rays), ask(*local, setting.rays));
+      rays += setting.rays.size();
     }
   }
 }

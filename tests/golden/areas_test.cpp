@@ -50,8 +50,9 @@ std::vector<LocalArea> many_areas(const Scene& scene, const World& world) {
 }
 
 bool identical(const FilmPixel& a, const FilmPixel& b) {
-  return a.sum == b.sum && a.sum_of_squares == b.sum_of_squares && a.albedo == b.albedo &&
-         a.normal == b.normal && a.depth == b.depth && a.samples == b.samples && a.hits == b.hits;
+  return a.sum == b.sum && a.rest == b.rest && a.sum_of_squares == b.sum_of_squares &&
+         a.albedo == b.albedo && a.normal == b.normal && a.depth == b.depth &&
+         a.samples == b.samples && a.hits == b.hits;
 }
 
 Film render_few(const World& world, const Accelerator& accelerator, const Scene& scene) {

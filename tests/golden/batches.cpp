@@ -14,7 +14,7 @@ std::vector<DVec3> means_of(const Film& film) {
   std::vector<DVec3> means;
   means.reserve(film.pixels.size());
   for (const FilmPixel& pixel : film.pixels)
-    means.push_back(pixel.sum / static_cast<double>(pixel.samples));
+    means.push_back(pixel.radiance() / static_cast<double>(pixel.samples));
   return means;
 }
 

@@ -11,8 +11,9 @@ using namespace pah;
 namespace {
 
 bool identical(const FilmPixel& a, const FilmPixel& b) {
-  return a.sum == b.sum && a.sum_of_squares == b.sum_of_squares && a.albedo == b.albedo &&
-         a.normal == b.normal && a.depth == b.depth && a.samples == b.samples && a.hits == b.hits;
+  return a.sum == b.sum && a.rest == b.rest && a.sum_of_squares == b.sum_of_squares &&
+         a.albedo == b.albedo && a.normal == b.normal && a.depth == b.depth &&
+         a.samples == b.samples && a.hits == b.hits;
 }
 
 std::size_t count_differing(const Film& a, const Film& b) {

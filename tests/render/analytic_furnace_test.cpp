@@ -27,6 +27,26 @@ SceneBuilder ball_under_sky(MaterialModel material, int samples) {
   return builder;
 }
 
+// Radiance is 1 anywhere inside a closed emitter of radiance 1.
+void check_closed_emitters(int samples, double tolerance) {
+  const std::array<Shape, 3> shapes{SphereShape{2, 32, 16}, BoxShape{{3, 2, 4}},
+                                    TorusShape{2, 1.5, 24, 16}};
+  for (const Shape& shape : shapes) {
+    for (const Strategy strategy : {Strategy::mis, Strategy::nee, Strategy::bsdf}) {
+      SceneBuilder builder;
+      const LightId shell = builder.light(AreaLight{Vec3(1), true});
+      builder.add(shape, 0, glm::dmat4(1), shell);
+      builder.add(BoxShape{{0.5, 0.5, 0.5}}, builder.diffuse(1), moved({1.2, 0.2, 0}));
+      builder.look({1.3, 0.4, 1}, {1.2, 0.1, 0}, 50);
+      builder.film(32, samples);
+      builder.scene.render.max_depth = 64;
+      builder.scene.render.strategy = strategy;
+      INFO("shape " << shape.index() << " strategy " << static_cast<int>(strategy));
+      check_radiance_one(builder.scene, tolerance);
+    }
+  }
+}
+
 }  // namespace
 
 TEST_CASE("white furnace: a white diffuse box, inside and out, under a constant sky") {
@@ -61,23 +81,14 @@ TEST_CASE("white furnace: glass and mirror") {
   check_radiance_one(ball_under_sky(MirrorMaterial{}, 16).scene);
 }
 
-TEST_CASE("radiance is 1 anywhere inside a closed emitter of radiance 1") {
-  const std::array<Shape, 3> shapes{SphereShape{2, 32, 16}, BoxShape{{3, 2, 4}},
-                                    TorusShape{2, 1.5, 24, 16}};
-  for (const Shape& shape : shapes) {
-    for (const Strategy strategy : {Strategy::mis, Strategy::nee, Strategy::bsdf}) {
-      SceneBuilder builder;
-      const LightId shell = builder.light(AreaLight{Vec3(1), true});
-      builder.add(shape, 0, glm::dmat4(1), shell);
-      builder.add(BoxShape{{0.5, 0.5, 0.5}}, builder.diffuse(1), moved({1.2, 0.2, 0}));
-      builder.look({1.3, 0.4, 1}, {1.2, 0.1, 0}, 50);
-      builder.film(32, 256);
-      builder.scene.render.max_depth = 64;
-      builder.scene.render.strategy = strategy;
-      INFO("shape " << shape.index() << " strategy " << static_cast<int>(strategy));
-      check_radiance_one(builder.scene, 1e-2);
-    }
-  }
+TEST_CASE("white furnace: glass and mirror, a million samples", "[full]") {
+  check_radiance_one(ball_under_sky(GlassMaterial{}, 1024).scene);
+  check_radiance_one(ball_under_sky(MirrorMaterial{}, 1024).scene);
+}
+
+TEST_CASE("radiance is 1 anywhere inside a closed emitter") { check_closed_emitters(128, 1e-2); }
+TEST_CASE("radiance is 1 anywhere inside a closed emitter, a million samples", "[full]") {
+  check_closed_emitters(1024, 5e-3);
 }
 
 TEST_CASE("an emitter is as bright within glass, through a mask and when seen directly") {

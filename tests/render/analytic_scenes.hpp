@@ -112,7 +112,7 @@ struct Estimate {
 inline Estimate estimate(const Film& film) {
   double sum = 0, squares = 0, n = 0;
   for (const FilmPixel& pixel : film.pixels) {
-    sum += pixel.sum.y;
+    sum += pixel.radiance().y;
     squares += pixel.sum_of_squares.y;
     n += pixel.samples;
   }
@@ -140,7 +140,7 @@ inline bool identical(const Film& a, const Film& b) {
   for (std::size_t i = 0; i < a.pixels.size(); ++i) {
     const FilmPixel& p = a.pixels[i];
     const FilmPixel& q = b.pixels[i];
-    if (p.sum != q.sum || p.sum_of_squares != q.sum_of_squares || p.albedo != q.albedo ||
+    if (p.sum != q.sum || p.rest != q.rest || p.sum_of_squares != q.sum_of_squares || p.albedo != q.albedo ||
         p.normal != q.normal || p.samples != q.samples || p.hits != q.hits) {
       return false;
     }

@@ -1,9 +1,11 @@
 #include "catch.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <pah/image/compare.hpp>
 #include <pah/render/film.hpp>
 #include <random>
+#include <vector>
 
 using namespace pah;
 
@@ -17,8 +19,7 @@ Film make_film(int width, int height) {
 }
 
 void add(FilmPixel& pixel, const DVec3& sample) {
-  pixel.sum += sample;
-  pixel.sum_of_squares += sample * sample;
+  pixel.add_radiance(sample);
   ++pixel.samples;
 }
 
@@ -88,4 +89,35 @@ TEST_CASE("an error that cannot be known is infinite") {
   add(film.at(0, 0), DVec3{1});
   CHECK(estimate_error(film).relmse == 0);
   CHECK(estimate_error(film).high == 0);
+}
+
+namespace {
+
+// The mean of `count` samples of a constant, off by how much of it.
+double drift_of(float constant, int count) {
+  FilmPixel pixel;
+  for (int i = 0; i < count; ++i) add(pixel, DVec3(constant));
+  return std::abs(pixel.radiance().x / count / constant - 1);
+}
+
+}  // namespace
+
+TEST_CASE("a sum of many samples does not drift") {
+  for (const float constant : {0.1F, 0.5F, 1e-20F, 3e7F})
+    CHECK(drift_of(constant, 3'000'000) < 1e-15);
+  // Nor does it depend on their order.
+  std::mt19937 random(1);
+  std::vector<float> samples;
+  for (int i = 0; i < 10'000; ++i)
+    samples.push_back(
+        std::ldexp(static_cast<float>(random() >> 8U), -static_cast<int>(random() % 40)));
+  FilmPixel forth, back;
+  for (const float sample : samples) add(forth, DVec3(sample));
+  std::reverse(samples.begin(), samples.end());
+  for (const float sample : samples) add(back, DVec3(sample));
+  CHECK(forth.radiance() == back.radiance());
+}
+
+TEST_CASE("a sum of 1e8 samples does not drift", "[full]") {
+  for (const float constant : {0.1F, 0.5F}) CHECK(drift_of(constant, 100'000'000) < 1e-15);
 }

@@ -13,12 +13,25 @@ namespace pah {
 // its sum over its count, and tiles never share pixels.
 struct FilmPixel {
   DVec3 sum{0};
+  DVec3 rest{0};  // what rounding has kept from `sum`
   DVec3 sum_of_squares{0};
   DVec3 albedo{0};  // sums, at the first non-specular surface
   DVec3 normal{0};
   double depth = 0;  // sum of distances from the camera, over `hits`
   std::uint32_t samples = 0;
   std::uint32_t hits = 0;  // samples whose camera ray met a surface
+
+  // Adds a sample's radiance, but does not count it. Float radiances are added without any error,
+  // as long as the largest is less than some 2^50 times the least.
+  void add_radiance(const DVec3& radiance) {
+    // Knuth, The Art of Computer Programming 2, 4.2.2, theorem B.
+    const DVec3 total = sum + radiance;
+    const DVec3 added = total - sum;
+    rest += (sum - (total - added)) + (radiance - added);
+    sum = total;
+    sum_of_squares += radiance * radiance;
+  }
+  [[nodiscard]] DVec3 radiance() const { return sum + rest; }  // of all samples
 };
 
 struct Film {
