@@ -11,8 +11,8 @@
 namespace pah {
 namespace {
 
-// What goes wrong with an instance, found in parallel and reported by the lowest instance, so that
-// the message does not depend on the threads.
+// What goes wrong with an instance, found in parallel: reported is the last of these of the lowest
+// instance, so that the message does not depend on the threads.
 enum class Fault : std::uint8_t { none, index, position, normal, uv };
 
 const char* text_of(Fault fault) {
@@ -103,7 +103,6 @@ struct Slot {
 
 Fault copy_vertices(const Mesh& mesh, const glm::dmat4x3& world_from_object, const Slot& slot,
                     World& world) {
-  std::atomic<Fault> fault{Fault::none};
   const DMat3 linear = normalized_linear(world_from_object);
   // Normals go by the inverse transpose: the matrix of cofactors over the determinant, whose sign
   // alone matters.
@@ -111,27 +110,30 @@ Fault copy_vertices(const Mesh& mesh, const glm::dmat4x3& world_from_object, con
   const DMat3 normal_matrix{sign * glm::cross(linear[1], linear[2]),
                             sign * glm::cross(linear[2], linear[0]),
                             sign * glm::cross(linear[0], linear[1])};
-  parallel_ranges(mesh.positions.size(), grain, [&](std::size_t begin, std::size_t end) {
+  const auto copy = [&](std::size_t begin, std::size_t end) {
+    Fault fault = Fault::none;
+    const auto note = [&](Fault found) { fault = std::max(fault, found); };
     for (std::size_t i = begin; i != end; ++i) {
       const std::size_t out = slot.first_position + i;
       const Vec3 p{transform_point(world_from_object, mesh.positions[i]) - world.origin};
-      if (!(std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z)))
-        fault = Fault::position;
+      if (!(std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z))) note(Fault::position);
       world.positions[out] = p;
       if (!mesh.normals.empty()) {
         const DVec3 n = normal_matrix * DVec3(mesh.normals[i]);
         const double length = glm::length(n);
-        if (!(length > 0 && std::isfinite(length))) fault = Fault::normal;
+        if (!(length > 0 && std::isfinite(length))) note(Fault::normal);
         world.normals[out] = Vec3(n / length);
       }
       if (!mesh.uvs.empty()) {
         const Vec2& uv = mesh.uvs[i];
-        if (!(std::isfinite(uv.x) && std::isfinite(uv.y))) fault = Fault::uv;
+        if (!(std::isfinite(uv.x) && std::isfinite(uv.y))) note(Fault::uv);
         world.uvs[out] = uv;
       }
     }
-  });
-  return fault;
+    return fault;
+  };
+  return parallel_fold(mesh.positions.size(), grain, Fault::none, copy,
+                       [](Fault& a, Fault b) { a = std::max(a, b); });
 }
 
 void copy_triangles(const Mesh& mesh, bool mirrored, const Slot& slot, std::uint32_t surface,

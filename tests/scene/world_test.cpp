@@ -215,3 +215,19 @@ TEST_CASE("one distant object costs the others neither digits nor their place") 
   scene.camera = camera;
   CHECK(make_world(scene).origin == DVec3(0));
 }
+
+TEST_CASE("of several faults the same is told every time") {
+  Scene scene = scene_of(SphereShape{1, 200, 200});
+  Mesh& mesh = scene.meshes[0];
+  REQUIRE(mesh.positions.size() > 30'000);
+  mesh.uvs.resize(mesh.positions.size());
+  for (int i = 0; i < 20; ++i) {
+    // Far apart, so that different threads find them.
+    mesh.positions[1] = Vec3(NAN);
+    mesh.uvs[mesh.positions.size() - 1] = Vec2(NAN);
+    CHECK_THROWS_WITH(make_world(scene), contains_text("a texture coordinate is not finite"));
+    std::swap(mesh.positions[1], mesh.positions[mesh.positions.size() - 1]);
+    std::swap(mesh.uvs[1], mesh.uvs[mesh.positions.size() - 1]);
+    CHECK_THROWS_WITH(make_world(scene), contains_text("a texture coordinate is not finite"));
+  }
+}
