@@ -1,11 +1,13 @@
 #include "catch.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <pah/io/mesh_file.hpp>
 
 #include "support/mesh_checks.hpp"
+#include "support/mutate.hpp"
 #include "support/temporary_folder.hpp"
 
 using namespace pah;
@@ -340,4 +342,34 @@ TEST_CASE("glTF: files that are cut short") {
   std::string deep;
   for (int i = 0; i < 1'000'000; ++i) deep += '[';
   CHECK(has(Files::error_of(files.write("deep.gltf", deep)), "not JSON"));
+}
+
+TEST_CASE("glTF: mutated files are meshes or errors") {
+  const Files files;
+  Json json = square();
+  json["nodes"][0] = Json::parse(R"({"children": [1, 2], "translation": [1, 2, 3]})");
+  json["nodes"].push_back(Json::parse(R"({"mesh": 0, "scale": [2, 1, 1], "camera": 0})"));
+  json["nodes"].push_back(
+      Json::parse(R"({"mesh": 0, "extensions": {"KHR_lights_punctual": {"light": 0}}})"));
+  json["cameras"] =
+      Json::parse(R"([{"type": "perspective", "perspective": {"yfov": 1, "znear": 1}}])");
+  json["extensions"] = Json::parse(
+      R"({"KHR_lights_punctual": {"lights": [{"type": "spot", "spot": {"outerConeAngle": 0.5}}]}})");
+  const std::string seed = json.dump();
+  std::mt19937 random(1);
+  int read_well = 0;
+  for (int i = 0; i < 3000; ++i) {
+    const std::string bytes = mutated(seed, random, "0123456789-.e,:[]{}\"");
+    CAPTURE(bytes);
+    try {
+      const MeshFile file = read_mesh_file(files.write("square.gltf", bytes));
+      ++read_well;
+      for (const Mesh& mesh : file.meshes)
+        for (const UVec3& t : mesh.triangles)
+          REQUIRE(std::max({t.x, t.y, t.z}) < mesh.positions.size());
+    } catch (const MeshFileError&) {
+      continue;
+    }
+  }
+  CHECK(read_well > 100);
 }

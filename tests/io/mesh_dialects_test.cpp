@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "catch.hpp"
+#include "support/mutate.hpp"
 #include "support/temporary_folder.hpp"
 
 using namespace pah;
@@ -337,25 +338,8 @@ TEST_CASE("mutated mesh files are meshes or errors") {
   std::mt19937 random(1);
   int read_well = 0;
   for (int i = 0; i < 3000; ++i) {
-    auto [extension, bytes] = seeds[i % seeds.size()];
-    for (unsigned n = 1 + random() % 3; n-- > 0;) {
-      const std::size_t at = random() % bytes.size();
-      const std::size_t count = 1 + random() % 4;
-      switch (random() % 4) {
-        case 0:
-          bytes[at] = static_cast<char>(random());
-          break;
-        case 1:
-          bytes.erase(at, count);
-          break;
-        case 2:
-          bytes.insert(at, bytes.substr(random() % bytes.size(), count));
-          break;
-        default:
-          bytes.insert(at, 1, "0 9-.e/\n\\#"[random() % 10]);
-      }
-      if (bytes.empty()) bytes = "v";
-    }
+    const auto& [extension, seed] = seeds[i % seeds.size()];
+    const std::string bytes = mutated(seed, random, "0 9-.e/\n\\#");
     std::ofstream(folder / ("a." + extension), std::ios::binary) << bytes;
     CAPTURE(extension, bytes);
     try {

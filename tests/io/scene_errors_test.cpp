@@ -1,9 +1,13 @@
 // Files that are no scenes, and what an error looks like: its place, its excerpt, its bounds.
 #include <algorithm>
+#include <fstream>
+#include <iterator>
 #include <pah/io/load_scene.hpp>
 
 #include "catch.hpp"
 #include "scene_faults.hpp"
+#include "support/mutate.hpp"
+#include "support/paths.hpp"
 
 using namespace pah;
 
@@ -178,4 +182,37 @@ TEST_CASE("a scene file that is none") {
   options.limits.scene_bytes = 10;
   CHECK(errors_of("film: {width: 3}\n", options) ==
         "scene.yaml: error: larger than the limit of 10 bytes\n");
+}
+
+TEST_CASE("mutated scenes load or are refused, with a place") {
+  const TemporaryFolder folder;
+  std::filesystem::copy(test::source_folder() / "scenes", folder.path(),
+                        std::filesystem::copy_options::recursive);
+  std::vector<std::string> seeds;
+  for (const char* name :
+       {"cornell_box", "textured", "glass_and_metal", "soft_shadow", "thin_lens"}) {
+    std::ifstream stream(folder / (std::string(name) + ".yaml"));
+    seeds.emplace_back(std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>());
+    REQUIRE(seeds.back().size() > 100);
+  }
+  LoadOptions options;
+  options.limits.triangles = 200'000;
+  options.limits.instances = 10'000;
+  std::mt19937 random(1);
+  int loaded = 0;
+  for (int i = 0; i < 1500; ++i) {
+    const std::string text =
+        mutated(seeds[i % seeds.size()], random, "0123456789-.: ,[]{}#&*\"'\n");
+    CAPTURE(text);
+    try {
+      (void)load_scene(write_text(folder / "scene.yaml", text), options);
+      ++loaded;
+    } catch (const SceneError& error) {
+      for (const LocatedError& one : error.errors()) {
+        CAPTURE(one.message);
+        REQUIRE(one.where.line > 0);
+      }
+    }
+  }
+  CHECK(loaded > 20);
 }
