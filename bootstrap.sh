@@ -5,11 +5,10 @@ set -euo pipefail
 cd "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")"
 
 # openimageio-tools: Debian's CMake package of OpenImageIO refuses to load without its programs.
-# zlib1g-dev: that of assimp names it, but does not depend on it.
 to_build=(
   g++ cmake ninja-build ccache pkg-config
-  libopenimageio-dev openimageio-tools libassimp-dev libyaml-cpp-dev libglm-dev libtbb-dev libhwy-dev
-  libcli11-dev libfmt-dev nlohmann-json3-dev zlib1g-dev
+  libopenimageio-dev openimageio-tools libyaml-cpp-dev libglm-dev libtbb-dev libhwy-dev
+  libcli11-dev libfmt-dev nlohmann-json3-dev
 )
 to_test=(catch2 libcgal-dev libbenchmark-dev)
 to_sanitize=(clang-19 libclang-rt-19-dev)

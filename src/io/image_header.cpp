@@ -33,8 +33,9 @@ ImageHeader read_image_header(const std::filesystem::path& file, std::uint64_t m
   });
 }
 
-std::uint64_t check_image_file(const std::filesystem::path& file, std::uint64_t max_bytes) {
-  return guarded([&] { return count_unusable(open_picture(file, max_bytes)); });
+std::uint64_t check_image_file(const std::filesystem::path& file, std::uint64_t max_bytes,
+                               const std::string* bytes) {
+  return guarded([&] { return count_unusable(open_picture(file, max_bytes, {}, bytes)); });
 }
 
 std::vector<float> read_first_channel(const std::filesystem::path& file, std::uint64_t max_bytes) {

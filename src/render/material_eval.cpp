@@ -58,7 +58,9 @@ Bsdf resolve_material(const Material& material, const TextureStore& textures, Ve
 }
 
 float opacity(const Material& material, const TextureStore& textures, Vec2 uv, float footprint) {
-  return Resolver{textures, uv, footprint}.scalar(material.opacity);
+  const float stopped = Resolver{textures, uv, footprint}.scalar(material.opacity);
+  if (material.opacity_cutoff == 0) return stopped;
+  return stopped >= material.opacity_cutoff ? 1.0F : 0.0F;
 }
 
 Vec3 mapped_normal(const Material& material, const TextureStore& textures, Vec2 uv,

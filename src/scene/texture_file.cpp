@@ -76,27 +76,36 @@ class MemoryFile final : private Bytes, public OIIO::Filesystem::IOMemReader {
       : Bytes{std::move(text)}, IOMemReader(bytes.data(), bytes.size()) {}
 };
 
+bool reads_from_memory(std::string_view reader) {
+  return reader == "png" || reader == "jpeg" || reader == "webp";
+}
+
 // What the reader shall read from; null for the file as it is.
 std::unique_ptr<OIIO::Filesystem::IOProxy> prepare_bytes(std::string_view reader,
                                                          const fs::path& file,
+                                                         const std::string* given,
                                                          std::string_view head,
                                                          std::uint64_t max_bytes) {
+  if (given != nullptr && !reads_from_memory(reader))
+    throw PictureError("a picture inside of another file has to be PNG, JPEG or WebP");
   if (reader == "tiff") return open_tiff_without_metadata(file);
   if (reader == "bmp") check_claim(claimed_bmp_size(head), max_bytes);
-  if (reader != "png" && reader != "jpeg" && reader != "webp") return nullptr;
-  std::string bytes = read_bytes(file, max_bytes);
+  if (!reads_from_memory(reader)) return nullptr;
+  std::string bytes = given != nullptr ? *given : read_bytes(file, max_bytes);
   if (reader == "png") strip_png(bytes);
   if (reader == "jpeg") check_claim(strip_jpeg(bytes), max_bytes);
   if (reader == "webp") check_claim(strip_webp(bytes), max_bytes);
   return std::make_unique<MemoryFile>(std::move(bytes));
 }
 
-OpenPicture open_unguarded(const fs::path& file, std::uint64_t max_bytes,
+OpenPicture open_unguarded(const fs::path& file, const std::string* bytes, std::uint64_t max_bytes,
                            const OIIO::ImageSpec& config) {
-  const std::string head = read_head(file);
+  const std::string head =
+      bytes != nullptr ? bytes->substr(0, picture_head_bytes) : read_head(file);
   const PictureFormat& format = format_of(head);
   OpenPicture picture;
-  picture.proxy = prepare_bytes(format.reader, file, head, max_bytes);
+  picture.forward_only = reads_from_memory(format.reader);
+  picture.proxy = prepare_bytes(format.reader, file, bytes, head, max_bytes);
   picture.input = OIIO::ImageInput::create(format.reader);
   if (picture.input == nullptr)
     throw PictureError("OpenImageIO was built without " + std::string(format.name));
@@ -115,9 +124,9 @@ OpenPicture open_unguarded(const fs::path& file, std::uint64_t max_bytes,
 }  // namespace
 
 OpenPicture open_picture(const fs::path& file, std::uint64_t max_bytes,
-                         const OIIO::ImageSpec& config) {
+                         const OIIO::ImageSpec& config, const std::string* bytes) {
   try {
-    return open_unguarded(file, max_bytes, config);
+    return open_unguarded(file, bytes, max_bytes, config);
   } catch (const PictureError&) {
     throw;
   } catch (const std::bad_alloc&) {

@@ -27,13 +27,17 @@ struct OpenPicture {
   std::unique_ptr<OIIO::Filesystem::IOProxy> proxy;
   std::unique_ptr<OIIO::ImageInput> input;
   OIIO::ImageSpec spec;
+  // To read a row before the last one read, the reader would open the file again, by its name and
+  // with all that was left out: open the picture anew instead.
+  bool forward_only = false;
 };
 
 // Opens with the reader that the first bytes name, whatever the extension says, and refuses what
-// takes more than `max_bytes` as RGB floats before it is decoded. `config` is OpenImageIO's. Throws
-// PictureError.
+// takes more than `max_bytes` as RGB floats before it is decoded. With `bytes`, they are the
+// picture and `file` is its name. `config` is OpenImageIO's. Throws PictureError.
 [[nodiscard]] OpenPicture open_picture(const std::filesystem::path& file, std::uint64_t max_bytes,
-                                       const OIIO::ImageSpec& config = {});
+                                       const OIIO::ImageSpec& config = {},
+                                       const std::string* bytes = nullptr);
 
 // Of a picture or a level of it, as floats of three channels or more.
 [[nodiscard]] double decoded_bytes(const OIIO::ImageSpec& spec);

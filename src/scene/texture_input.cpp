@@ -21,6 +21,7 @@ void decode_srgb(float* texels, std::size_t count, int channels, int alpha_chann
 namespace {
 
 constexpr const char* file_attribute = "pah:file";
+constexpr const char* bytes_attribute = "pah:bytes";
 constexpr const char* srgb_attribute = "pah:srgb";
 
 // Reads through the file's own reader and hands on what that says of tiles, levels and sizes.
@@ -33,13 +34,8 @@ class PictureInput final : public OIIO::ImageInput {
 
   bool open(const std::string& /*name*/, OIIO::ImageSpec& spec,
             const OIIO::ImageSpec& config) override {
-    try {
-      picture_ = open_picture(config.get_string_attribute(file_attribute).c_str(),
-                              most_picture_bytes, config);
-    } catch (const PictureError& error) {
-      errorfmt("{}", error.what());
-      return false;
-    }
+    config_ = config;
+    if (!open_again()) return false;
     srgb_ = config.get_int_attribute(srgb_attribute) != 0;
     adopt_spec();
     spec = m_spec;
@@ -48,11 +44,14 @@ class PictureInput final : public OIIO::ImageInput {
 
   bool close() override { return picture_.input == nullptr || picture_.input->close(); }
   int current_subimage() const override { return 0; }
-  int current_miplevel() const override { return picture_.input->current_miplevel(); }
+  int current_miplevel() const override {
+    return picture_.input == nullptr ? 0 : picture_.input->current_miplevel();
+  }
 
   // Only the first picture of a file is ever asked for; its levels claim sizes of their own.
   bool seek_subimage(int subimage, int miplevel) override {
-    if (subimage != 0 || !picture_.input->seek_subimage(0, miplevel)) return false;
+    if (subimage != 0 || picture_.input == nullptr || !picture_.input->seek_subimage(0, miplevel))
+      return false;
     adopt_spec();
     return decoded_bytes(m_spec) <= static_cast<double>(most_picture_bytes);
   }
@@ -60,6 +59,8 @@ class PictureInput final : public OIIO::ImageInput {
   bool read_native_scanline(int subimage, int miplevel, int y, int z, void* data) override {
     const lock_guard lock(*this);
     if (!seek_subimage(subimage, miplevel)) return false;
+    if (picture_.forward_only && y < next_row_ && !open_again()) return false;
+    next_row_ = y + 1;
     const std::size_t count = static_cast<std::size_t>(m_spec.width);
     return deliver(count, data, [&](OIIO::TypeDesc type, void* texels) {
       return picture_.input->read_scanline(y, z, type, texels);
@@ -75,6 +76,21 @@ class PictureInput final : public OIIO::ImageInput {
   }
 
  private:
+  bool open_again() {
+    try {
+      const std::string* bytes = nullptr;
+      config_.getattribute(bytes_attribute, OIIO::TypeDesc::PTR, static_cast<void*>(&bytes));
+      picture_.input.reset();  // before what it reads from, and before as much memory is taken
+      picture_.proxy.reset();
+      picture_ = open_picture(config_.get_string_attribute(file_attribute).c_str(),
+                              most_picture_bytes, config_, bytes);
+      return true;
+    } catch (const PictureError& error) {
+      errorfmt("{}", error.what());
+      return false;
+    }
+  }
+
   void adopt_spec() {
     const OIIO::ImageSpec& spec = picture_.input->spec();
     m_spec = spec;
@@ -102,17 +118,21 @@ class PictureInput final : public OIIO::ImageInput {
                                static_cast<int>(values));
   }
 
+  OIIO::ImageSpec config_;
   OpenPicture picture_;
+  int next_row_ = 0;
   bool srgb_ = false;
   std::vector<float> texels_;
 };
 
 }  // namespace
 
-bool add_picture(OIIO::ImageCache& cache, const OIIO::ustring& name,
-                 const std::filesystem::path& file, TexelDecoding decoding) {
+bool add_picture(OIIO::ImageCache& cache, const OIIO::ustring& name, const ImageTexture& picture,
+                 TexelDecoding decoding) {
   OIIO::ImageSpec config;
-  config.attribute(file_attribute, file.string());
+  config.attribute(file_attribute, picture.file.string());
+  const std::string* const bytes = picture.bytes.get();
+  config.attribute(bytes_attribute, OIIO::TypeDesc::PTR, static_cast<const void*>(&bytes));
   config.attribute(srgb_attribute, decoding == TexelDecoding::srgb ? 1 : 0);
   return cache.add_file(
       name, []() -> OIIO::ImageInput* { return new PictureInput; }, &config);

@@ -5,7 +5,7 @@
 #include <OpenImageIO/imagecache.h>
 #include <OpenImageIO/imageio.h>
 
-#include <filesystem>
+#include <pah/scene/texture.hpp>
 
 namespace pah {
 
@@ -14,8 +14,9 @@ void decode_srgb(float* texels, std::size_t count, int channels, int alpha_chann
 
 enum class TexelDecoding { none, srgb };
 
-// Makes the cache serve `file` under `name`. False if the name is taken.
-bool add_picture(OIIO::ImageCache& cache, const OIIO::ustring& name,
-                 const std::filesystem::path& file, TexelDecoding decoding);
+// Makes the cache serve the picture under `name`. Its bytes, if it has any, have to live as long.
+// False if the name is taken.
+bool add_picture(OIIO::ImageCache& cache, const OIIO::ustring& name, const ImageTexture& picture,
+                 TexelDecoding decoding);
 
 }  // namespace pah

@@ -3,6 +3,7 @@
 #include <OpenImageIO/texture.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <mutex>
 #include <optional>
@@ -53,7 +54,7 @@ std::string described(const std::filesystem::path& file, const std::string& reas
 OpenPicture open_image(const ImageTexture& texture, const TextureOptions& options) {
   OIIO::ImageSpec config;
   config.attribute("oiio:UnassociatedAlpha", 1);
-  return open_picture(texture.file, options.max_image_bytes, config);
+  return open_picture(texture.file, options.max_image_bytes, config, texture.bytes.get());
 }
 
 Vec4 as_rgba(const float* texel, int channels) {
@@ -148,12 +149,15 @@ ImageEntry TextureStore::Impl::load(TextureId id, const ImageTexture& texture) {
   entry.channels = std::min(opened.spec.nchannels, 4);
   entry.srgb = is_srgb(texture, opened.spec);
   entry.clamp = texture.clamp;
+  // A system remembers pictures of the stores before: those that are no files never come back.
+  static std::atomic<std::uint64_t> unnamed{0};
+  const std::string id_of_bytes = texture.bytes ? std::to_string(++unnamed) + ":" : "";
   // Not by the file's name, by which OpenImageIO would choose a reader itself.
   const auto handle = [&](TexelDecoding decoding) {
     const bool decode = decoding == TexelDecoding::srgb;
     const OIIO::ustring name((decode ? "colors:" : "data:") + std::to_string(id) + ":" +
-                             texture.file.string());
-    add_picture(*system->imagecache(), name, texture.file, decoding);
+                             id_of_bytes + texture.file.string());
+    add_picture(*system->imagecache(), name, texture, decoding);
     return system->get_texture_handle(name);
   };
   entry.data = handle(TexelDecoding::none);

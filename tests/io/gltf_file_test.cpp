@@ -231,15 +231,81 @@ TEST_CASE("glTF: textures") {
   CHECK(file.emission[file.parts[0].material] == Vec3(1, 2, 3));
 }
 
-TEST_CASE("glTF: images inside of the file are refused where they are wanted") {
+TEST_CASE("glTF: images inside of the file") {
   const Files files;
   Json json = square();
-  json["images"] = Json::parse(R"([{"bufferView": 0, "mimeType": "image/png"}])");
-  json["textures"] = Json::parse(R"([{"source": 0}])");
-  json["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"] = {{"index", 0}};
-  const auto file = files.write_binary(json);
-  CHECK(has(Files::error_of(file), "'paint': images inside of a mesh file cannot be read"));
-  CHECK(read_mesh(file).triangles.size() == 2);
+  json["images"] = Json::parse(R"([{"bufferView": 1, "mimeType": "image/png"},
+                                   {"uri": "data:image/png;base64,aGVsbG8="}])");
+  json["textures"] = Json::parse(R"([{"source": 0}, {"source": 1}])");
+  Json& model = json["materials"][0]["pbrMetallicRoughness"];
+  model["baseColorTexture"] = {{"index", 0}};
+  model["metallicRoughnessTexture"] = {{"index", 1}};
+  const MeshFile file = read_mesh_file(files.write_binary(json));
+  REQUIRE(file.textures.size() == 2);
+  const auto& base = std::get<ImageTexture>(file.textures[0]);
+  CHECK(base.file.filename() == "square.glb, image 0");
+  REQUIRE(base.bytes != nullptr);
+  CHECK(*base.bytes == square_bytes().substr(128, 12));
+  REQUIRE(std::get<ImageTexture>(file.textures[1]).bytes != nullptr);
+  CHECK(*std::get<ImageTexture>(file.textures[1]).bytes == "hello");
+}
+
+TEST_CASE("glTF: accessors that are sparse, without data or normalized") {
+  const Files files;
+  Json json = square();
+  // All positions are 0 but for two: the second and third index, 1 and 2, become (1, 0, 0) and
+  // (1, 1, 0).
+  json["accessors"][0].erase("bufferView");
+  json["accessors"][0]["sparse"] = Json::parse(R"({"count": 2,
+      "indices": {"bufferView": 1, "byteOffset": 2, "componentType": 5123},
+      "values": {"bufferView": 0, "byteOffset": 12}})");
+  CHECK(area_of(read_mesh(files.write(json))) == Approx(0.5));
+  json["accessors"][0]["sparse"]["count"] = 20;
+  CHECK(has(files.error_of(json), "sparse part is empty or goes beyond"));
+  json = square();
+  json["accessors"][2]["componentType"] = 5121;
+  json["accessors"][2]["normalized"] = true;
+  for (const Vec2& uv : read_mesh(files.write(json)).uvs) CHECK((uv.x >= 0 && uv.x <= 1));
+}
+
+TEST_CASE("glTF: what is shown without a scene, and how triangles are listed") {
+  const Files files;
+  Json json = square();
+  json["nodes"] = Json::parse(R"([{"mesh": 0}, {"children": [0]}, {"mesh": 0}])");
+  json.erase("scene");
+  json["scenes"] = Json::parse(R"([{"nodes": [1]}, {"nodes": [2]}])");
+  CHECK(read_mesh(files.write(json)).triangles.size() == 2);  // the first
+  json.erase("scenes");
+  CHECK(read_mesh(files.write(json)).triangles.size() == 4);  // every root
+  json = square();
+  Json& primitive = json["meshes"][0]["primitives"][0];
+  primitive.erase("indices");
+  primitive["mode"] = 6;
+  CHECK(area_of(read_mesh(files.write(json))) == Approx(1));
+  primitive["mode"] = 5;  // 0 1 2, then 1 3 2
+  CHECK(read_mesh(files.write(json)).triangles.size() == 2);
+  primitive["mode"] = 1;
+  CHECK(has(files.error_of(json), "no triangles"));
+}
+
+TEST_CASE("glTF: strength of emission, cut-outs, and what is left out") {
+  const Files files;
+  Json json = square();
+  Json& material = json["materials"][0];
+  material["emissiveFactor"] = {1, 0.5, 0};
+  material["extensions"]["KHR_materials_emissive_strength"]["emissiveStrength"] = 5;
+  material["extensions"]["KHR_materials_clearcoat"]["clearcoatFactor"] = 1;
+  material["alphaMode"] = "MASK";
+  material["alphaCutoff"] = 0.25;
+  json["animations"] = Json::array({Json::object()});
+  const MeshFile file = read_mesh_file(files.write(json));
+  CHECK(file.emission[0] == Vec3(5, 2.5F, 0));
+  CHECK(file.materials[0].opacity.value == 0.5F);
+  CHECK(file.materials[0].opacity_cutoff == 0.25F);
+  REQUIRE(file.warnings.size() == 1);
+  CHECK(file.warnings[0] == "left out: KHR_materials_clearcoat, animations");
+  json["extensionsRequired"] = {"KHR_materials_clearcoat"};
+  CHECK(has(files.error_of(json), "it needs KHR_materials_clearcoat"));
 }
 
 TEST_CASE("glTF: nothing outside of the folder is opened") {
@@ -253,6 +319,8 @@ TEST_CASE("glTF: nothing outside of the folder is opened") {
     CHECK((has(message, "outside of its folder") || has(message, "not a path relative")));
     json = square();
     json["images"] = {{{"uri", uri}}};
+    json["textures"] = Json::parse(R"([{"source": 0}])");
+    json["materials"][0]["normalTexture"] = {{"index", 0}};
     CHECK_FALSE(files.error_of(json).empty());
   }
 }

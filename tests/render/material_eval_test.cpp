@@ -70,6 +70,10 @@ TEST_CASE("opacity and normal maps") {
   CHECK(opacity(material, textures, {}, 0) == 1);
   material.opacity = {0.5F, 0, 1};
   CHECK(opacity(material, textures, {}, 0) == 0.25F);
+  material.opacity_cutoff = 0.25F;
+  CHECK(opacity(material, textures, {}, 0) == 1);
+  material.opacity_cutoff = 0.26F;
+  CHECK(opacity(material, textures, {}, 0) == 0);
 
   CHECK(mapped_normal(material, textures, {}, 0) == Vec3{0, 0, 1});
   material.normal_map = 0;

@@ -8,7 +8,9 @@
 #include <filesystem>
 #include <fstream>
 #include <functional>
+#include <iterator>
 #include <limits>
+#include <memory>
 #include <random>
 
 #ifdef __SANITIZE_ADDRESS__
@@ -390,4 +392,27 @@ TEST_CASE("look-ups give the same from any number of threads, whatever fits the 
   std::vector<Vec4> parallel(count);
   parallel_for(count, 16, [&](std::size_t i) { parallel[i] = at(tight, i); });
   CHECK(parallel == expected);
+}
+
+TEST_CASE("a picture inside of another file is read in any order") {
+  const ImageFolder folder;
+  for (const char* name : {"a.png", "a.jpg"}) {
+    CAPTURE(name);
+    // Each quarter has a brightness of its own, and is more than a tile.
+    const fs::path file = folder.write(name, 300, 300, 3, OIIO::TypeUInt8, [](int x, int y, int) {
+      return static_cast<float>(1 + (x >= 150 ? 1 : 0) + (y >= 150 ? 2 : 0)) / 5;
+    });
+    std::ifstream stream(file, std::ios::binary);
+    ImageTexture image;
+    image.file = "b.glb, image 0";
+    image.color_space = ColorSpace::linear;
+    image.bytes = std::make_shared<const std::string>(std::istreambuf_iterator<char>(stream),
+                                                      std::istreambuf_iterator<char>());
+    const TextureStore store(std::vector<Texture>{image});
+    // From the bottom, which is stored last, to the top.
+    CHECK(store.sample(0, {0.25F, 0.25F}).x == Approx(0.6).margin(0.02));
+    CHECK(store.sample(0, {0.75F, 0.25F}).x == Approx(0.8).margin(0.02));
+    CHECK(store.sample(0, {0.25F, 0.75F}).x == Approx(0.2).margin(0.02));
+    CHECK(store.sample(0, {0.75F, 0.75F}).x == Approx(0.4).margin(0.02));
+  }
 }

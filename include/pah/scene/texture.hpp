@@ -4,7 +4,9 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <pah/geometry/vec.hpp>
+#include <string>
 #include <variant>
 
 namespace pah {
@@ -24,6 +26,9 @@ struct ImageTexture {
   DVec2 scale{1, 1};  // texture coordinates are multiplied by scale, then offset is added
   DVec2 offset{0, 0};
   bool clamp = false;  // else the image repeats
+  // The picture itself, PNG, JPEG or WebP, if it is part of another file: `file` is only its name
+  // then.
+  std::shared_ptr<const std::string> bytes{};
 };
 
 // A checkerboard in texture coordinates: one square per unit of scaled coordinates.

@@ -1,14 +1,9 @@
 #include "io/mesh/gltf_materials.hpp"
 
-#include <assimp/GltfMaterial.h>
-#include <assimp/material.h>
-
 #include <algorithm>
 #include <cmath>
-#include <optional>
+#include <memory>
 
-#include "io/mesh/folder.hpp"
-#include "io/mesh/gltf.hpp"
 #include "io/mesh/texture_list.hpp"
 
 namespace pah {
@@ -16,77 +11,59 @@ namespace {
 
 namespace fs = std::filesystem;
 
-bool finite(const Vec3& v) {
-  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
-
-Vec3 unit_color(const Vec3& c) { return glm::clamp(c, Vec3(0), Vec3(1)); }
-
-// One material of assimp's, read in our terms.
 class MaterialReader {
  public:
-  MaterialReader(const aiMaterial& source, const aiScene& scene, const fs::path& file,
-                 const fs::path& limit, TextureList& textures, MeshFile& out)
-      : source_(source),
-        scene_(scene),
-        file_(file),
-        limit_(limit),
-        textures_(textures),
-        out_(out) {}
+  MaterialReader(const GltfDocument& document, const GltfBuffers& buffers, MeshFile& out,
+                 std::vector<std::string>& left_out)
+      : document_(document),
+        buffers_(buffers),
+        textures_(out.textures),
+        images_(list(document.json, "images").size()),
+        out_(out),
+        left_out_(left_out) {}
 
-  void read() {
+  void read(const Json& source) {
     Material material;
-    material.name = source_.GetName().C_Str();
-    Vec3 emission = color(AI_MATKEY_COLOR_EMISSIVE, Vec3(0));
-    read_model(material);
-    material.normal_map = texture(aiTextureType_NORMALS, 0, ColorSpace::linear);
-    emission *= std::max(number("$mat.emissiveIntensity").value_or(1), 0.0F);
-    // An image says where a surface emits, which one radiance for all of it cannot.
-    if (source_.GetTextureCount(aiTextureType_EMISSIVE) > 0) emission = Vec3(0);
-    out_.emission.push_back(glm::max(emission, Vec3(0)));
+    material.name = source.value("name", std::string());
+    try {
+      read_model(source, material);
+    } catch (const MeshFileError& error) {
+      throw MeshFileError("material '" + material.name + "': " + error.what());
+    }
     out_.materials.push_back(std::move(material));
   }
 
  private:
-  [[nodiscard]] std::optional<float> number(const char* key) const {
-    float value = 0;
-    if (source_.Get(key, 0, 0, value) != aiReturn_SUCCESS) return std::nullopt;
-    if (!std::isfinite(value)) fail(std::string(key) + " is not finite");
-    return value;
+  static float factor(const Json& object, const char* key, float otherwise, float low, float high) {
+    const double value = object.value(key, double{otherwise});
+    if (!std::isfinite(value)) throw MeshFileError(std::string(key) + " is not finite");
+    return static_cast<float>(std::clamp(value, double{low}, double{high}));
   }
 
-  [[nodiscard]] float number(const char* key, float otherwise, float low, float high) const {
-    return std::clamp(number(key).value_or(otherwise), low, high);
-  }
+  void read_model(const Json& source, Material& material) {
+    const Json& metallic_roughness = child(source, "pbrMetallicRoughness");
+    const Json& extensions = child(source, "extensions");
+    tell_of_extensions(extensions);
+    Vec4 base(1);
+    if (const auto found = metallic_roughness.find("baseColorFactor");
+        found != metallic_roughness.end())
+      for (int k = 0; k < 4; ++k)
+        base[k] = std::clamp(found->at(static_cast<std::size_t>(k)).get<float>(), 0.0F, 1.0F);
 
-  Vec3 color(const char* key, unsigned type, unsigned index, const Vec3& otherwise) const {
-    aiColor3D value;
-    if (source_.Get(key, type, index, value) != aiReturn_SUCCESS) return otherwise;
-    const Vec3 result{value.r, value.g, value.b};
-    if (!finite(result)) fail(std::string(key) + " is not finite");
-    return result;
-  }
-
-  [[noreturn]] void fail(const std::string& what) const {
-    throw MeshFileError("material '" + std::string(source_.GetName().C_Str()) + "': " + what);
-  }
-
-  void read_model(Material& material) {
     PrincipledMaterial model;
-    model.base_color = {unit_color(color(AI_MATKEY_BASE_COLOR, Vec3(1))),
-                        texture(aiTextureType_BASE_COLOR, 0, ColorSpace::srgb)};
-    const TextureId rough_metal = texture(aiTextureType_UNKNOWN, 0, ColorSpace::linear);
-    model.metallic = {number("$mat.metallicFactor", 1, 0, 1), rough_metal, 2};
-    model.roughness = {number("$mat.roughnessFactor", 1, 0, 1), rough_metal, 1};
-    model.ior = number("$mat.refracti", 1.5F, 1, 4);
-    aiString mode;
-    if (source_.Get(AI_MATKEY_GLTF_ALPHAMODE, mode) == aiReturn_SUCCESS &&
-        std::string(mode.C_Str()) != "OPAQUE") {
-      aiColor4D base;
-      (void)source_.Get(AI_MATKEY_BASE_COLOR, base);
-      material.opacity = {std::clamp(base.a, 0.0F, 1.0F), model.base_color.texture, 3};
-    }
-    if (number("$mat.transmission.factor", 0, 0, 1) < 0.5F) {
+    model.base_color = {Vec3(base),
+                        texture(metallic_roughness, "baseColorTexture", ColorSpace::srgb)};
+    const TextureId rough_metal =
+        texture(metallic_roughness, "metallicRoughnessTexture", ColorSpace::linear);
+    model.metallic = {factor(metallic_roughness, "metallicFactor", 1, 0, 1), rough_metal, 2};
+    model.roughness = {factor(metallic_roughness, "roughnessFactor", 1, 0, 1), rough_metal, 1};
+    model.ior = factor(child(extensions, "KHR_materials_ior"), "ior", 1.5F, 1, 4);
+    material.normal_map = texture(source, "normalTexture", ColorSpace::linear);
+    read_opacity(source, base.w, model.base_color.texture, material);
+    out_.emission.push_back(emission_of(source, extensions));
+
+    const Json& transmission = child(extensions, "KHR_materials_transmission");
+    if (factor(transmission, "transmissionFactor", 0, 0, 1) < 0.5F) {
       material.model = model;
       return;
     }
@@ -97,60 +74,117 @@ class MaterialReader {
     material.model = glass;
   }
 
-  TextureId texture(aiTextureType type, unsigned index, ColorSpace space) {
-    aiString name;
-    aiTextureMapMode modes[3] = {aiTextureMapMode_Wrap, aiTextureMapMode_Wrap,
-                                 aiTextureMapMode_Wrap};
-    if (source_.GetTexture(type, index, &name, nullptr, nullptr, nullptr, nullptr, modes) !=
-        aiReturn_SUCCESS)
+  static void read_opacity(const Json& source, float alpha, TextureId base, Material& material) {
+    const std::string mode = source.value("alphaMode", std::string("OPAQUE"));
+    if (mode != "BLEND" && mode != "MASK") return;
+    material.opacity = {alpha, base, 3};
+    if (mode == "MASK") material.opacity_cutoff = factor(source, "alphaCutoff", 0.5F, 0, 1);
+  }
+
+  Vec3 emission_of(const Json& source, const Json& extensions) {
+    const Json& strength = child(extensions, "KHR_materials_emissive_strength");
+    const DVec3 color = vec(source, "emissiveFactor", DVec3(0)) *
+                        double{factor(strength, "emissiveStrength", 1, 0, 1e18F)};
+    const Vec3 emission(glm::clamp(color, 0.0, 1e18));
+    // An image says where a surface emits, which one radiance for all of it cannot.
+    if (!source.contains("emissiveTexture") || emission == Vec3(0)) return emission;
+    left_out_.emplace_back("light of surfaces with an emissiveTexture");
+    return Vec3(0);
+  }
+
+  void tell_of_extensions(const Json& extensions) {
+    for (const auto& [name, value] : extensions.items())
+      if (name != "KHR_materials_emissive_strength" && name != "KHR_materials_ior" &&
+          name != "KHR_materials_transmission")
+        left_out_.push_back(name);
+  }
+
+  TextureId texture(const Json& object, const char* key, ColorSpace space) {
+    const Json& use = child(object, key);
+    if (use.empty()) return no_texture;
+    const Json& textures = list(document_.json, "textures");
+    const Json& source = textures[index_of(use, "index", textures.size())];
+    if (!source.contains("source")) {
+      left_out_.emplace_back("textures in formats of extensions");
       return no_texture;
-    ImageTexture image;
-    image.file = path_of(name.C_Str());
-    image.color_space = space;
-    image.clamp = modes[0] == aiTextureMapMode_Clamp;
-    aiUVTransform transform;
-    if (source_.Get(AI_MATKEY_UVTRANSFORM(type, index), transform) == aiReturn_SUCCESS) {
-      image.scale = {transform.mScaling.x, transform.mScaling.y};
-      image.offset = {transform.mTranslation.x, transform.mTranslation.y};
-      if (!finite(Vec3(image.scale, 0)) || !finite(Vec3(image.offset, 0)))
-        fail("a texture's transform is not finite");
     }
+    ImageTexture image;
+    image.color_space = space;
+    set_image(index_of(source, "source", images_.size()), image);
+    if (source.contains("sampler")) {
+      const Json& samplers = list(document_.json, "samplers");
+      const Json& sampler = samplers[index_of(source, "sampler", samplers.size())];
+      constexpr std::uint64_t clamp_to_edge = 33071, mirrored_repeat = 33648;
+      const std::uint64_t wrap = number(sampler, "wrapS", 0);
+      image.clamp = wrap == clamp_to_edge;
+      if (wrap == mirrored_repeat) left_out_.emplace_back("mirroring of repeated textures");
+    }
+    const Json& transform = child(child(use, "extensions"), "KHR_texture_transform");
+    if (number(use, "texCoord", 0) != 0 || number(transform, "texCoord", 0) != 0)
+      left_out_.emplace_back("texture coordinates other than the first");
+    if (transform.value("rotation", 0.0) != 0) left_out_.emplace_back("rotation of textures");
+    const DVec2 scale = pair(transform, "scale", DVec2(1));
+    const DVec2 offset = pair(transform, "offset", DVec2(0));
+    image.scale = scale;
+    // glTF's v grows downwards: 1 - (offset + scale (1 - v)).
+    image.offset = {offset.x, 1 - offset.y - scale.y};
     return textures_.add(image);
   }
 
-  fs::path path_of(const std::string& name) {
-    if (scene_.GetEmbeddedTexture(name.c_str()) != nullptr)
-      fail("images inside of a mesh file cannot be read; save it with separate images");
-    // Names are URIs, which the importer may have decoded or not.
-    std::error_code error;
-    const std::string decoded = decode_uri(name);
-    const bool is_decoded = fs::is_regular_file(file_.parent_path() / name, error);
-    try {
-      return image_of(file_, is_decoded ? name : decoded, limit_);
-    } catch (const MeshFileError& problem) {
-      fail(problem.what());
-    }
+  static DVec2 pair(const Json& object, const char* key, const DVec2& otherwise) {
+    const auto found = object.find(key);
+    if (found == object.end()) return otherwise;
+    const DVec2 value{found->at(0).get<double>(), found->at(1).get<double>()};
+    if (!std::isfinite(value.x) || !std::isfinite(value.y))
+      throw MeshFileError("a texture's transform is not finite");
+    return value;
   }
 
-  const aiMaterial& source_;
-  const aiScene& scene_;
-  fs::path file_;
-  fs::path limit_;
-  TextureList& textures_;
+  // A file, or bytes inside of this one, kept once.
+  void set_image(std::size_t index, ImageTexture& texture) {
+    Image& known = images_[index];
+    if (known.file.empty()) {
+      const Json& source = list(document_.json, "images")[index];
+      const std::string label =
+          document_.file.filename().string() + ", image " + std::to_string(index);
+      if (source.contains("bufferView")) {
+        const std::size_t views = list(document_.json, "bufferViews").size();
+        known = {document_.file.parent_path() / label,
+                 std::make_shared<const std::string>(
+                     buffers_.view(index_of(source, "bufferView", views)))};
+      } else {
+        const auto& uri = source.at("uri").get_ref<const std::string&>();
+        if (is_data(uri))
+          known = {document_.file.parent_path() / label,
+                   std::make_shared<const std::string>(document_.data_of(uri))};
+        else
+          known = {document_.image_of(uri), nullptr};
+      }
+    }
+    texture.file = known.file;
+    texture.bytes = known.bytes;
+  }
+
+  struct Image {
+    fs::path file;
+    std::shared_ptr<const std::string> bytes;
+  };
+
+  const GltfDocument& document_;
+  const GltfBuffers& buffers_;
+  TextureList textures_;
+  std::vector<Image> images_;
   MeshFile& out_;
+  std::vector<std::string>& left_out_;
 };
 
 }  // namespace
 
-glm::dmat4x3 matrix_of(const aiMatrix4x4& m) {
-  return {DVec3{m.a1, m.b1, m.c1}, {m.a2, m.b2, m.c2}, {m.a3, m.b3, m.c3}, {m.a4, m.b4, m.c4}};
-}
-
-void read_gltf_materials(const aiScene& scene, const fs::path& file, const fs::path& folder,
-                         MeshFile& out) {
-  TextureList textures(out.textures);
-  for (unsigned i = 0; i < scene.mNumMaterials; ++i)
-    MaterialReader(*scene.mMaterials[i], scene, file, folder, textures, out).read();
+void read_gltf_materials(const GltfDocument& document, const GltfBuffers& buffers, MeshFile& out,
+                         std::vector<std::string>& left_out) {
+  MaterialReader reader(document, buffers, out, left_out);
+  for (const Json& material : list(document.json, "materials")) reader.read(material);
+  reader.read(Json::object());
 }
 
 }  // namespace pah

@@ -1,16 +1,17 @@
-// The materials of glTF files, from assimp's terms into ours.
+// The materials of glTF files.
 #pragma once
 
-#include <assimp/scene.h>
-
 #include <pah/io/mesh_file.hpp>
+#include <string>
+#include <vector>
+
+#include "io/mesh/gltf_buffers.hpp"
 
 namespace pah {
 
-[[nodiscard]] glm::dmat4x3 matrix_of(const aiMatrix4x4& m);
-
-// Materials, their emission and textures. Images are files under `folder`. Throws MeshFileError.
-void read_gltf_materials(const aiScene& scene, const std::filesystem::path& file,
-                         const std::filesystem::path& folder, MeshFile& out);
+// Materials, their emission and textures into `out`, and behind them that of primitives without
+// one. Names of what is left out go into `left_out`. Throws MeshFileError.
+void read_gltf_materials(const GltfDocument& document, const GltfBuffers& buffers, MeshFile& out,
+                         std::vector<std::string>& left_out);
 
 }  // namespace pah

@@ -1,33 +1,20 @@
+#include "io/mesh/gltf_nodes.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <glm/gtc/quaternion.hpp>
-#include <nlohmann/json.hpp>
 #include <numbers>
 #include <pah/scene/placement.hpp>
 #include <string>
 
-#include "io/mesh/gltf.hpp"
+#include "io/mesh/gltf_json.hpp"
 
 namespace pah {
 namespace {
 
-using Json = nlohmann::json;
-
 constexpr double lumens_per_watt = 683;
 
-const Json& list(const Json& object, const char* key) {
-  static const Json none = Json::array();
-  const auto found = object.find(key);
-  return found == object.end() ? none : *found;
-}
-
 double degrees(double radians) { return radians * (180 / std::numbers::pi); }
-
-DVec3 vec(const Json& object, const char* key, const DVec3& otherwise) {
-  const auto found = object.find(key);
-  if (found == object.end()) return otherwise;
-  return {found->at(0).get<double>(), found->at(1).get<double>(), found->at(2).get<double>()};
-}
 
 glm::dmat4x3 parent_from_node(const Json& node) {
   if (const auto found = node.find("matrix"); found != node.end()) {
@@ -52,31 +39,30 @@ DVec3 forward_of(const glm::dmat4x3& world_from_node) { return -world_from_node[
 
 class NodeReader {
  public:
-  NodeReader(const Json& document, MeshFile& out)
-      : nodes_(list(document, "nodes")), cameras_(list(document, "cameras")), out_(out) {
-    const auto extensions = document.find("extensions");
-    if (extensions == document.end()) return;
-    const auto punctual = extensions->find("KHR_lights_punctual");
-    if (punctual != extensions->end()) lights_ = &list(*punctual, "lights");
-  }
+  NodeReader(const Json& document, std::vector<GltfPlace>& places, MeshFile& out)
+      : nodes_(list(document, "nodes")),
+        cameras_(list(document, "cameras")),
+        lights_(list(child(child(document, "extensions"), punctual), "lights")),
+        meshes_(list(document, "meshes").size()),
+        places_(places),
+        out_(out) {}
 
-  // The tree has been checked to be one, and not to be deep.
-  void read(const Json& index, const glm::dmat4x3& world_from_parent) {
-    const Json& node = nodes_.at(index.get<std::size_t>());
+  // The nodes have been checked to be trees, and not to be deep.
+  void read(std::size_t index, const glm::dmat4x3& world_from_parent) {
+    const Json& node = nodes_.at(index);
     const glm::dmat4x3 world = compose(world_from_parent, parent_from_node(node));
-    for (int column = 0; column < 4; ++column)
-      for (int row = 0; row < 3; ++row)
-        if (!std::isfinite(world[column][row]))
-          throw MeshFileError("the transform of a node is not finite");
+    // Any entry that is not finite makes the determinant so, or the translation is it.
+    const DVec3 place = world[3];
+    if (!std::isfinite(glm::determinant(DMat3(world))) ||
+        !std::isfinite(place.x + place.y + place.z) || glm::length(place) > largest_coordinate)
+      throw MeshFileError("the transform of a node is not finite");
+    if (node.contains("mesh")) places_.push_back({index_of(node, "mesh", meshes_), world});
     if (node.contains("camera"))
-      read_camera(node, cameras_.at(node.at("camera").get<std::size_t>()), world);
-    if (lights_ != nullptr && node.contains("extensions")) {
-      const Json& extensions = node.at("extensions");
-      const auto found = extensions.find("KHR_lights_punctual");
-      if (found != extensions.end())
-        read_light(node, lights_->at(found->at("light").get<std::size_t>()), world);
-    }
-    for (const Json& child : list(node, "children")) read(child, world);
+      read_camera(node, cameras_.at(index_of(node, "camera", cameras_.size())), world);
+    const Json& light = child(child(node, "extensions"), punctual);
+    if (light.contains("light"))
+      read_light(node, lights_.at(index_of(light, "light", lights_.size())), world);
+    for (const Json& below : list(node, "children")) read(below.get<std::size_t>(), world);
   }
 
  private:
@@ -132,26 +118,65 @@ class NodeReader {
     out_.lights.push_back(std::move(light));
   }
 
+  static constexpr const char* punctual = "KHR_lights_punctual";
+  static constexpr double largest_coordinate = 1e30;  // squares of it are finite
+
   const Json& nodes_;
   const Json& cameras_;
-  const Json* lights_ = nullptr;
+  const Json& lights_;
+  std::size_t meshes_;
+  std::vector<GltfPlace>& places_;
   MeshFile& out_;
 };
 
+// Every node hangs below one other at most, so following children ends; and not too deep. Returns
+// those below none.
+std::vector<std::size_t> check_nodes(const Json& nodes) {
+  constexpr int max_depth = 256;
+  std::vector<std::size_t> parent(nodes.size(), nodes.size());
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    for (const Json& below : list(nodes[i], "children")) {
+      if (!below.is_number_unsigned() || below.get<std::uint64_t>() >= nodes.size())
+        throw MeshFileError("node " + std::to_string(i) +
+                            " has a child that is no node of the file");
+      std::size_t& above = parent[below.get<std::size_t>()];
+      if (above != nodes.size())
+        throw MeshFileError("node " + below.dump() + " has more than one parent");
+      above = i;
+    }
+  std::vector<std::size_t> roots;
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    if (parent[i] == nodes.size()) roots.push_back(i);
+    int depth = 0;
+    for (std::size_t at = i; at != nodes.size(); at = parent[at])
+      if (++depth > max_depth)
+        throw MeshFileError("the nodes are nested in a circle, or more than " +
+                            std::to_string(max_depth) + " deep");
+  }
+  return roots;
+}
+
 }  // namespace
 
-void read_gltf_cameras_and_lights(const GltfDocument& gltf, MeshFile& out) {
-  if (gltf.nodes == nullptr) return;
-  const Json& document = *gltf.nodes;
-  try {
-    NodeReader reader(document, out);
-    const Json& scenes = list(document, "scenes");
-    if (scenes.empty()) return;
-    const Json& scene = scenes.at(document.value("scene", std::size_t{0}));
-    for (const Json& root : list(scene, "nodes")) reader.read(root, glm::dmat4x3{1.0});
-  } catch (const Json::exception&) {
-    throw MeshFileError("a camera or light is not of the kind that glTF asks for");
+std::vector<GltfPlace> read_gltf_nodes(const Json& document, MeshFile& out) {
+  const Json& nodes = list(document, "nodes");
+  std::vector<std::size_t> roots = check_nodes(nodes);
+  // Without a scene that is to be shown at first, the first is; without any, everything.
+  const Json& scenes = list(document, "scenes");
+  if (!scenes.empty()) {
+    const bool chosen = document.contains("scene");
+    const Json& scene = scenes[chosen ? index_of(document, "scene", scenes.size()) : 0];
+    roots.clear();
+    for (const Json& root : list(scene, "nodes")) {
+      if (!root.is_number_unsigned() || root.get<std::uint64_t>() >= nodes.size())
+        throw MeshFileError("the scene has a node that is none of the file");
+      roots.push_back(root.get<std::size_t>());
+    }
   }
+  std::vector<GltfPlace> places;
+  NodeReader reader(document, places, out);
+  for (const std::size_t root : roots) reader.read(root, glm::dmat4x3{1.0});
+  return places;
 }
 
 }  // namespace pah

@@ -2,7 +2,7 @@
 #include <pah/io/mesh_file.hpp>
 
 #include "io/extension.hpp"
-#include "io/mesh/gltf_import.hpp"
+#include "io/mesh/gltf.hpp"
 #include "io/mesh/mtl.hpp"
 #include "io/mesh/obj.hpp"
 #include "io/mesh/ply.hpp"
@@ -54,7 +54,6 @@ const std::vector<std::string>& mesh_extensions() {
 }
 
 MeshFile read_mesh_file(const fs::path& file, const MeshFileOptions& options) {
-  // assimp and the standard library throw what they like on broken files.
   try {
     check_file(file);
     MeshFile result = read_format(file, options);

@@ -55,10 +55,14 @@ ImportedFile add_file(SceneReading& reading, MeshFile file, const Mark& mark) {
   const auto first_material = static_cast<MaterialId>(scene.materials.size());
   const auto first_texture = static_cast<TextureId>(scene.textures.size());
   for (Texture& texture : file.textures) {
-    if (const auto* image = std::get_if<ImageTexture>(&texture);
-        image != nullptr &&
-        reading.files.open(reading.context, mark, image->file, reading.limits.image_bytes))
-      reading.pictures.emplace(image->file, mark);
+    if (const auto* image = std::get_if<ImageTexture>(&texture)) {
+      // What is inside of a file has been opened with it.
+      const bool is_open =
+          image->bytes != nullptr ||
+          reading.files.open(reading.context, mark, image->file, reading.limits.image_bytes);
+      if (image->bytes != nullptr) reading.files.hash().add_part(*image->bytes);
+      if (is_open) reading.pictures.emplace(image->file, NamedPicture{mark, image->bytes});
+    }
     scene.textures.push_back(std::move(texture));
   }
   const auto shift = [&](TextureId& id) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <memory>
 #include <optional>
 #include <pah/io/load_scene.hpp>
 #include <pah/io/mesh_file.hpp>
@@ -47,6 +48,12 @@ struct ImportedFile {
   std::vector<Light> lights;
 };
 
+// Where a picture is first named, and its bytes if it is inside of another file.
+struct NamedPicture {
+  Mark mark;
+  std::shared_ptr<const std::string> bytes{};
+};
+
 struct SceneReading {
   ReadContext& context;
   Scene& scene;
@@ -58,7 +65,7 @@ struct SceneReading {
   NameTable lights{"light"};
   std::unordered_map<std::string, TextureId> images{};       // inline ones, by path and color space
   std::unordered_map<TextureId, TextureId> linear_copies{};  // of images used as numbers
-  std::map<std::filesystem::path, Mark> pictures{};  // of textures, and where each is first named
+  std::map<std::filesystem::path, NamedPicture> pictures{};  // of textures
   std::vector<std::size_t> first_instances{};  // by id in `meshes`; no_instance if it has none
   std::unordered_map<std::string, ImportedFile> imported{};  // mesh files, by path and options
   std::unordered_map<int, MaterialId> unnamed_materials{};   // by reflectance in percent

@@ -10,7 +10,7 @@ using Kind = YamlNode::Kind;
 std::optional<std::filesystem::path> open_image(SceneReading& reading, const YamlNode& node,
                                                 const ValueName& name) {
   auto file = reading.files.open(reading.context, node, name, reading.limits.image_bytes);
-  if (file) reading.pictures.emplace(*file, node.mark);
+  if (file) reading.pictures.emplace(*file, NamedPicture{node.mark});
   return file;
 }
 

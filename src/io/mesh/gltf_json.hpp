@@ -1,0 +1,27 @@
+// Values of a glTF document, checked as they are taken. What is not of the kind that glTF asks for
+// throws nlohmann::json::exception or MeshFileError.
+#pragma once
+
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <pah/geometry/vec.hpp>
+#include <string>
+
+namespace pah {
+
+using Json = nlohmann::json;
+
+// The list under a key; empty if there is none.
+[[nodiscard]] const Json& list(const Json& object, const char* key);
+// The object under a key; empty if there is none.
+[[nodiscard]] const Json& child(const Json& object, const char* key);
+
+// A count or an offset; `otherwise` where there is none.
+[[nodiscard]] std::uint64_t number(const Json& object, const char* key, std::uint64_t otherwise);
+
+// An index in a list of `size`.
+[[nodiscard]] std::size_t index_of(const Json& object, const char* key, std::size_t size);
+
+[[nodiscard]] DVec3 vec(const Json& object, const char* key, const DVec3& otherwise);
+
+}  // namespace pah
