@@ -44,7 +44,6 @@ const std::vector<ThirdParty> third_parties{
     {"tbb/", {"src/parallel/", "src/render/session.cpp", "src/cli/render_command.cpp"}},
     {"OpenImageIO/", {"src/io/image_", "src/scene/texture"}},
     {"yaml-cpp/", {"src/io/yaml/"}},
-    {"assimp/", {"src/io/mesh/"}},
     {"fmt/", {"src/io/", "src/report/", "src/cli/"}},
     {"nlohmann/", {"src/io/mesh/gltf", "src/report/json_value"}},
     {"CLI/", {"src/cli/"}},

@@ -3,11 +3,12 @@
 #include <cstring>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <pah/io/mesh_file.hpp>
 #include <set>
 
 #include "catch.hpp"
 #include "hand_made_tree.hpp"
-#include "io/mesh/gltf.hpp"
+#include "io/mesh/gltf_document.hpp"
 #include "report/box_gltf.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -98,8 +99,10 @@ TEST_CASE("Files of boxes pass the checks of glTF files") {
   const TemporaryFolder folder;
   const auto nodes = [&](const BinaryTree& tree, std::uint32_t levels) {
     std::ofstream(folder / "boxes.gltf") << boxes_gltf(tree, levels, DVec3{0});
+    // All its nodes are read; none is a mesh of triangles.
+    CHECK_THROWS_WITH(read_mesh_file(folder / "boxes.gltf"), contains_text("no triangles"));
     return read_gltf_document(folder / "boxes.gltf", folder.path(), 1 << 20)
-        .nodes->at("nodes")
+        .json.at("nodes")
         .size();
   };
   for (const std::uint32_t levels : {1U, 2U, 3U, 80U})
