@@ -34,9 +34,8 @@ void measure_local(benchmark::State& state, const MeshScene& scene, const LocalA
   std::uint64_t triangles = 0, bytes = 0;
   for (auto _ : state) {
     arena.execute([&] {
-      const BuiltLocalBvh local =
-          build_local_bvh(scene.world.triangles(), scene.world.bounds, area.area, config);
-      triangles = local.triangles;
+      const BuiltLocalBvh local = build_local_bvh(scene.world.triangles(), area.area, config);
+      triangles = local.triangles.subset.size();
       bytes = local.built.bvh.memory_bytes();
     });
   }

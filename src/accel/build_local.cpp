@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <pah/influence/bundle_area.hpp>
 
 #include "accel/bundle_heuristic.hpp"
 #include "bvh/analyze.hpp"
@@ -68,11 +69,8 @@ BuiltLocalBvh build_local_bvh(const Triangles& triangles, const InfluenceArea& a
   return local;
 }
 
-double bundle_cost(const BinaryTree& tree, const BuildConfig& config,
-                   const HitProbability& probability) {
-  if (tree.empty()) return 0;
-  return expected_cost(tree, config, each_box(probability)) *
-         double{probability.area(tree.nodes.front().box)};
+double bundle_cost(const Bvh& bvh, const InfluenceArea& area) {
+  return expected_cost(bvh, each_box(HitProbability(area)), 1);
 }
 
 }  // namespace pah

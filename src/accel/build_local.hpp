@@ -2,7 +2,6 @@
 #pragma once
 
 #include <pah/accel/local_bvhs.hpp>
-#include <pah/influence/bundle_area.hpp>
 
 #include "bvh/build.hpp"
 
@@ -30,8 +29,7 @@ struct BuiltLocalBvh {
 [[nodiscard]] BuiltLocalBvh build_local_bvh(const Triangles& triangles, const InfluenceArea& area,
                                             const LocalConfig& config);
 
-// Expected cost of a ray of the bundle, whether it meets the tree's root or not.
-[[nodiscard]] double bundle_cost(const BinaryTree& tree, const BuildConfig& config,
-                                 const HitProbability& probability);
+// Expected cost in any BVH of a ray of the area's bundle, all the way through its region.
+[[nodiscard]] double bundle_cost(const Bvh& bvh, const InfluenceArea& area);
 
 }  // namespace pah

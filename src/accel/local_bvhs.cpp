@@ -9,6 +9,7 @@
 // it the ray is asked of the global BVH again as a whole.
 #include <algorithm>
 #include <atomic>
+#include <bit>
 #include <numeric>
 #include <pah/accel/local_bvhs.hpp>
 #include <utility>
@@ -16,6 +17,7 @@
 
 #include "accel/batch.hpp"
 #include "accel/build_local.hpp"
+#include "geometry/mix_bits.hpp"
 
 namespace pah {
 
@@ -55,25 +57,44 @@ struct Area {
 
 // Threads add what a batch was; nobody reads while they do.
 struct Counters {
-  std::atomic<std::uint64_t> asked = 0, answered = 0, nodes = 0, triangles = 0;
+  struct Work {
+    std::atomic<std::uint64_t> rays = 0, inner_nodes = 0, blocks = 0;
 
-  void add(std::uint64_t rays, std::uint64_t rays_answered, const TraversalCounts& spent) {
-    asked.fetch_add(rays, std::memory_order_relaxed);
-    answered.fetch_add(rays_answered, std::memory_order_relaxed);
-    nodes.fetch_add(spent.nodes, std::memory_order_relaxed);
-    triangles.fetch_add(spent.triangles, std::memory_order_relaxed);
-  }
+    void add(std::uint64_t more, const TraversalCounts& spent) {
+      rays.fetch_add(more, std::memory_order_relaxed);
+      inner_nodes.fetch_add(spent.inner_nodes, std::memory_order_relaxed);
+      blocks.fetch_add(spent.blocks, std::memory_order_relaxed);
+    }
+    [[nodiscard]] double cost() const {
+      return traversal_cost({.inner_nodes = inner_nodes, .blocks = blocks});
+    }
+  };
+  Work local, global;
+  std::atomic<std::uint64_t> answered = 0;
 };
+
+// Whether a ray is among the few that are traced through the global BVH only to know what that
+// costs. By its own bits, so that the sample depends neither on batches nor on threads.
+bool is_sampled(const Ray& ray) {
+  constexpr std::uint64_t one_in = 64;
+  std::uint64_t hash = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const std::uint64_t origin = std::bit_cast<std::uint32_t>(ray.origin[axis]);
+    const std::uint64_t direction = std::bit_cast<std::uint32_t>(ray.direction[axis]);
+    hash = mix_bits(hash ^ (origin << 32U | direction));
+  }
+  return hash % one_in == 0;
+}
 
 class LocalBvhsOverGlobal final : public LocalBvhs {
  public:
   LocalBvhsOverGlobal(const Triangles& triangles, const std::vector<LocalArea>& areas,
                       const LocalConfig& config)
-      : bounds_(padded(bounds_of(triangles))), counters_(areas.size()) {
-    BuiltBvh global = build_bvh(triangles);
+      : bounds_(padded(bounds_of(triangles))),
+        global_(build_bvh(triangles).bvh),
+        counters_(areas.size()) {
     areas_.reserve(areas.size());
-    for (const LocalArea& area : areas) add(area, triangles, config, global.tree);
-    global_ = std::move(global.bvh);
+    for (const LocalArea& area : areas) add(area, triangles, config);
     order_.resize(areas_.size());
     std::iota(order_.begin(), order_.end(), 0U);
     std::ranges::sort(order_, {}, [&](std::uint32_t i) { return std::pair(bundle_of(i), i); });
@@ -123,9 +144,11 @@ class LocalBvhsOverGlobal final : public LocalBvhs {
     std::vector<LocalBvhUse> uses;
     uses.reserve(counters_.size());
     for (const Counters& c : counters_) {
-      uses.push_back({c.asked, c.answered,
-                      double{box_cost} * static_cast<double>(c.nodes) +
-                          double{triangle_cost} * static_cast<double>(c.triangles)});
+      uses.push_back({.asked = c.local.rays,
+                      .answered = c.answered,
+                      .cost = c.local.cost(),
+                      .sampled = c.global.rays,
+                      .global_cost = c.global.cost()});
     }
     return uses;
   }
@@ -155,8 +178,7 @@ class LocalBvhsOverGlobal final : public LocalBvhs {
     return areas_[area].declared.bundle;
   }
 
-  void add(const LocalArea& declared, const Triangles& triangles, const LocalConfig& config,
-           const BinaryTree& global) {
+  void add(const LocalArea& declared, const Triangles& triangles, const LocalConfig& config) {
     Area area;
     area.declared = declared;
     BuiltLocalBvh local = build_local_bvh(triangles, declared.area, config);
@@ -164,13 +186,12 @@ class LocalBvhsOverGlobal final : public LocalBvhs {
     area.end_margin = local.triangles.end_margin;
     area.holds_scene = local.triangles.subset.size() == triangles.size();
 
-    const HitProbability probability(declared.area);
     LocalBvhReport report;
     report.triangles = local.triangles.subset.size();
     report.bytes = local.built.bvh.memory_bytes();
     report.build_seconds = local.seconds;
-    report.predicted_cost = bundle_cost(local.built.tree, config.build, probability);
-    report.global_cost = bundle_cost(global, BuildConfig{}, probability);
+    report.predicted_cost = bundle_cost(local.built.bvh, declared.area);
+    report.global_cost = bundle_cost(global_, declared.area);
     reports_.push_back(report);
     area.structure = std::move(local.built.bvh);
     areas_.push_back(std::move(area));
@@ -212,6 +233,7 @@ class LocalBvhsOverGlobal final : public LocalBvhs {
         lanes.rays[lanes.count - 1].t_max = std::min(batch[k].t_max, assigned[k].reach);
         done[k] = true;
       }
+      if (counts != nullptr) sample(rays, lanes, batch, area, trace);
       TraversalCounts spent;
       const auto hit = std::visit(
           [&](const auto& structure) {
@@ -224,12 +246,27 @@ class LocalBvhsOverGlobal final : public LocalBvhs {
         if (assigned[ray].reach < batch[ray].t_max && !hit(ray)) open.add(batch[ray], ray);
       }
       if (counts != nullptr) {
-        counters_[area].add(lanes.count, lanes.count - (open.count - open_before), spent);
-        counts->nodes += spent.nodes;
-        counts->triangles += spent.triangles;
+        counters_[area].local.add(lanes.count, spent);
+        counters_[area].answered.fetch_add(lanes.count - (open.count - open_before),
+                                           std::memory_order_relaxed);
+        *counts += spent;
       }
     }
     if (open.count > 0) trace(global_, open, counts);
+  }
+
+  // What it writes as answers is written again by those who are asked for them.
+  template <typename Trace>
+  void sample(std::span<const Ray> rays, const Lanes& lanes, std::span<const PreparedRay> batch,
+              std::uint32_t area, const Trace& trace) const {
+    Lanes sampled;
+    for (const std::size_t i : std::span(lanes.index).first(lanes.count)) {
+      if (is_sampled(rays[i])) sampled.add(batch[i], i);
+    }
+    if (sampled.count == 0) return;
+    TraversalCounts spent;
+    trace(global_, sampled, &spent);
+    counters_[area].global.add(sampled.count, spent);
   }
 
   Aabb bounds_;  // of all triangles, padded

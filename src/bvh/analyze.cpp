@@ -14,6 +14,22 @@ double expected_cost(const BinaryTree& tree, const BuildConfig& config, const Bo
   return root > 0 ? cost / root : cost;
 }
 
+double expected_cost(const Bvh& bvh, const BoxMeasure& measure, double whole) {
+  if (bvh.nodes.empty()) return 0;
+  double below_root = 0;
+  for (const BvhNode& node : bvh.nodes) {
+    for (std::size_t k = 0; k < BvhNode::width; ++k) {
+      const Aabb box = node.box(k);
+      if (box.empty()) continue;
+      const ChildRef child = node.children[k];
+      const float tests =
+          child.is_leaf() ? leaf_cost(child.triangles(), TriangleBlock::width) : box_cost;
+      below_root += double{tests} * double{measure_of(measure, box)};
+    }
+  }
+  return double{box_cost} + (whole > 0 ? below_root / whole : 0);
+}
+
 double sibling_overlap(const NodeVisit& visit, const BoxMeasure& measure) {
   const Aabb& left = visit.left().box;
   const Aabb& right = visit.right().box;
@@ -22,8 +38,7 @@ double sibling_overlap(const NodeVisit& visit, const BoxMeasure& measure) {
   return both.empty() || !(whole > 0) ? 0 : double{measure_of(measure, both)} / whole;
 }
 
-TreeSummary summarize(const BinaryTree& tree, const BuildConfig& config,
-                      const BoxMeasure& measure) {
+TreeSummary summarize(const BinaryTree& tree, const BoxMeasure& measure) {
   TreeSummary sum;
   const auto per_node = [&](const NodeVisit& visit) {
     if (visit.depth == sum.levels.size()) sum.levels.emplace_back();
@@ -53,7 +68,6 @@ TreeSummary summarize(const BinaryTree& tree, const BuildConfig& config,
     sum.max_depth = sum.levels.empty() ? 0 : static_cast<std::uint32_t>(sum.levels.size() - 1);
     sum.mean_depth = mean(sum.mean_depth, sum.leaves);
     sum.overlap = mean(sum.overlap, sum.nodes - sum.leaves);
-    sum.expected_cost = expected_cost(tree, config, measure);
     return sum;
   });
 }

@@ -1,9 +1,10 @@
-// What can be told of a tree without rays.
+// What can be told of a tree, or of a BVH, without rays.
 #pragma once
 
 #include <vector>
 
 #include "bvh/binary_tree.hpp"
+#include "bvh/bvh.hpp"
 #include "bvh/heuristic.hpp"
 
 namespace pah {
@@ -52,18 +53,21 @@ struct TreeSummary {
   std::vector<std::uint64_t> leaf_sizes;  // [n]: how many leaves have n triangles
   std::vector<TreeLevel> levels;          // by depth
   double overlap = 0;                     // mean over all inner nodes
-  double expected_cost = 0;               // of a ray that hits the root's box
 };
 
-// The expected cost of a ray that hits the root's box.
+// The builder's expected cost of a ray that hits the root's box.
 [[nodiscard]] double expected_cost(const BinaryTree& tree, const BuildConfig& config,
                                    const BoxMeasure& measure);
+
+// The expected cost of traversing all that a ray meets (build_config.hpp), of rays of which those
+// that meet a box are measure(box) / whole: what rays cost that hit nothing, and the most that
+// others do. All rays visit the root.
+[[nodiscard]] double expected_cost(const Bvh& bvh, const BoxMeasure& measure, double whole);
 
 // The part of an inner node that both children claim: the measure of the intersection of their
 // boxes, relative to that of the node's. 0 if they do not touch.
 [[nodiscard]] double sibling_overlap(const NodeVisit& visit, const BoxMeasure& measure);
 
-[[nodiscard]] TreeSummary summarize(const BinaryTree& tree, const BuildConfig& config,
-                                    const BoxMeasure& measure);
+[[nodiscard]] TreeSummary summarize(const BinaryTree& tree, const BoxMeasure& measure);
 
 }  // namespace pah

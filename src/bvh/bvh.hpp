@@ -47,6 +47,12 @@ struct alignas(64) BvhNode {
   static constexpr std::size_t width = 8;
   float planes[3][2][width];  // [axis][min, max][child]; unused children have empty boxes
   ChildRef children[width];
+
+  // Of child k; empty if it is not used.
+  [[nodiscard]] Aabb box(std::size_t k) const {
+    return {{planes[0][0][k], planes[1][0][k], planes[2][0][k]},
+            {planes[0][1][k], planes[1][1][k], planes[2][1][k]}};
+  }
 };
 
 struct alignas(16) TriangleBlock {

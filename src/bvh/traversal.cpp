@@ -141,6 +141,7 @@ HWY_INLINE void closest(const Bvh& bvh, const PreparedRay& ray, Hit& best,
   for (;;) {
     if (counting) ++counts.nodes;
     if (!current.is_leaf()) {
+      if (counting) ++counts.inner_nodes;
       const BvhNode& node = bvh.nodes[current.node()];
       std::uint32_t hits = slabs.meet_children(node, best.t, near);
       if (hits != 0) {
@@ -166,6 +167,7 @@ HWY_INLINE void closest(const Bvh& bvh, const PreparedRay& ray, Hit& best,
       if (counting) counts.triangles += count;
       const TriangleBlock* block = &bvh.blocks[current.first_block()];
       for (std::uint32_t begin = 0; begin < count; begin += TriangleBlock::width, ++block) {
+        if (counting) ++counts.blocks;
         for (std::uint32_t hits = maybe_hit(*block, ray); hits != 0; hits &= hits - 1) {
           const std::uint32_t lane = lowest_bit(hits);
           update_nearest(ray, block->triangle(lane), block->indices[lane], best);
@@ -192,6 +194,7 @@ HWY_INLINE bool any(const Bvh& bvh, const PreparedRay& ray, TraversalCounts& cou
     const ChildRef child = *--top;
     if (counting) ++counts.nodes;
     if (!child.is_leaf()) {
+      if (counting) ++counts.inner_nodes;
       const BvhNode& node = bvh.nodes[child.node()];
       std::uint32_t hits = slabs.meet_children(node, ray.t_max, near);
       for (; hits != 0; hits &= hits - 1) *top++ = node.children[lowest_bit(hits)];
@@ -201,6 +204,7 @@ HWY_INLINE bool any(const Bvh& bvh, const PreparedRay& ray, TraversalCounts& cou
     if (counting) counts.triangles += count;
     const TriangleBlock* block = &bvh.blocks[child.first_block()];
     for (std::uint32_t begin = 0; begin < count; begin += TriangleBlock::width, ++block) {
+      if (counting) ++counts.blocks;
       TriangleHit hit;
       for (std::uint32_t hits = maybe_hit(*block, ray); hits != 0; hits &= hits - 1) {
         if (intersect_triangle(ray, block->triangle(lowest_bit(hits)), ray.t_max, hit)) return true;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <pah/influence/bundle_area.hpp>
 #include <pah/io/image_file.hpp>
 #include <pah/io/load_scene.hpp>
 #include <pah/render/acceleration.hpp>
@@ -54,19 +55,24 @@ TimedBvh build_global(const Triangles& triangles) {
   return {std::move(built), seconds.count()};
 }
 
+double cost_within_root(const BuiltBvh& built, const BoxMeasure& measure) {
+  if (built.tree.empty()) return 0;
+  return expected_cost(built.bvh, measure, measure_of(measure, built.tree.nodes.front().box));
+}
+
 BvhReport report_local(const World& world, const SceneArea& area, const LocalConfig& config,
-                       const BinaryTree& global) {
+                       const Bvh& global) {
   const BuiltLocalBvh local = build_local_bvh(world.triangles(), area.area, config);
-  const BinaryTree& tree = local.built.tree;
-  const HitProbability probability(area.area);
+  const BoxMeasure probability = each_box(HitProbability(area.area));
   const bool projected = config.heuristic == Heuristic::projected_area;
   return {.name = area.name,
           .heuristic = projected ? "projected area" : "surface area",
-          .tree = summarize(tree, config.build, each_box(probability)),
+          .tree = summarize(local.built.tree, probability),
           .wide_nodes = local.built.bvh.nodes.size(),
+          .expected_cost = cost_within_root(local.built, probability),
           .camera_rays = std::nullopt,
-          .bundle = BundleCosts{bundle_cost(tree, config.build, probability),
-                                bundle_cost(global, BuildConfig{}, probability)},
+          .bundle =
+              BundleCosts{bundle_cost(local.built.bvh, area.area), bundle_cost(global, area.area)},
           .memory_bytes = local.built.bvh.memory_bytes(),
           .build_seconds = local.seconds};
 }
@@ -84,6 +90,7 @@ ExitCode run_inspect(const InspectArguments& arguments) {
   print_warnings(world.warnings);
 
   const TimedBvh global = build_global(world.triangles());
+  const BoxMeasure surface_area = each_box(SurfaceArea{});
   const PictureCosts costs = measure_costs(global.built.bvh, world.camera, scene.film);
   InspectReport report;
   report.version = PAHRENDER_VERSION;
@@ -91,20 +98,20 @@ ExitCode run_inspect(const InspectArguments& arguments) {
   report.width = scene.film.width;
   report.height = scene.film.height;
   report.triangles = world.triangles().size();
-  report.bvhs.push_back(
-      {.name = "global",
-       .heuristic = "surface area",
-       .tree = summarize(global.built.tree, BuildConfig{}, each_box(SurfaceArea{})),
-       .wide_nodes = global.built.bvh.nodes.size(),
-       .camera_rays = summarize(costs),
-       .bundle = std::nullopt,
-       .memory_bytes = global.built.bvh.memory_bytes(),
-       .build_seconds = global.seconds});
+  report.bvhs.push_back({.name = "global",
+                         .heuristic = "surface area",
+                         .tree = summarize(global.built.tree, surface_area),
+                         .wide_nodes = global.built.bvh.nodes.size(),
+                         .expected_cost = cost_within_root(global.built, surface_area),
+                         .camera_rays = summarize(costs),
+                         .bundle = std::nullopt,
+                         .memory_bytes = global.built.bvh.memory_bytes(),
+                         .build_seconds = global.seconds});
 
   for (const SceneArea& area : areas_of(world, scene.influence_areas, scene.film))
     if (plan(local_area(area)).build)
       report.bvhs.push_back(
-          report_local(world, area, local_config(scene.acceleration), global.built.tree));
+          report_local(world, area, local_config(scene.acceleration), global.built.bvh));
 
   fmt::print("{}", inspect_text(report));
   if (!arguments.json.empty()) write_text_file(arguments.json, inspect_json(report));

@@ -1,6 +1,6 @@
 #include "render/sampler.hpp"
 
-#include "scene/mix_bits.hpp"
+#include "geometry/mix_bits.hpp"
 
 namespace pah {
 namespace {

@@ -55,8 +55,7 @@ std::uint64_t total(const std::array<std::uint64_t, 3>& rays) {
 void add(RenderCounts& sum, const RenderCounts& other) {
   for (std::size_t kind = 0; kind < sum.rays.size(); ++kind) {
     sum.rays[kind] += other.rays[kind];
-    sum.traversal[kind].nodes += other.traversal[kind].nodes;
-    sum.traversal[kind].triangles += other.traversal[kind].triangles;
+    sum.traversal[kind] += other.traversal[kind];
   }
   sum.nan_samples += other.nan_samples;
 }

@@ -26,7 +26,11 @@ std::vector<AreaReport> report_areas(const Acceleration& acceleration) {
       report.predicted_cost = bvh_report.predicted_cost;
       report.global_cost = bvh_report.global_cost;
       report.rays = use.answered;
+      report.asked_rays = use.asked;
+      report.sampled_rays = use.sampled;
       if (use.asked > 0) report.measured_cost = use.cost / static_cast<double>(use.asked);
+      if (use.sampled > 0)
+        report.measured_global_cost = use.global_cost / static_cast<double>(use.sampled);
     }
     reports.push_back(std::move(report));
   }

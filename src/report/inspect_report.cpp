@@ -55,7 +55,7 @@ std::string bvh_text(const BvhReport& bvh) {
   line("nodes", fmt::format("{}, of which {} leaves; {} eight-wide", tree.nodes, tree.leaves,
                             bvh.wide_nodes));
   line("depth of leaves", fmt::format("at most {}, mean {:.1f}", tree.max_depth, tree.mean_depth));
-  line("expected cost", fmt::format("{:.2f}", tree.expected_cost));
+  line("expected cost", fmt::format("{:.2f}", bvh.expected_cost));
   line("overlap", fmt::format("{:.1f} % of the parent, mean", 100 * tree.overlap));
   if (const auto& bundle = bvh.bundle)
     line("bundle's rays",
@@ -89,7 +89,7 @@ JsonValue bvh_json(const BvhReport& bvh) {
                  {"leaves", tree.leaves},
                  {"wide_nodes", bvh.wide_nodes},
                  {"depth", {{"max", tree.max_depth}, {"mean", tree.mean_depth}}},
-                 {"expected_cost", tree.expected_cost},
+                 {"expected_cost", bvh.expected_cost},
                  {"overlap", tree.overlap},
                  {"memory_bytes", bvh.memory_bytes},
                  {"build_seconds", bvh.build_seconds},
@@ -143,7 +143,7 @@ std::string inspect_csv(const InspectReport& report) {
     row("wide_nodes", "", bvh.wide_nodes);
     row("max_depth", "", tree.max_depth);
     row("mean_depth", "", tree.mean_depth);
-    row("expected_cost", "", tree.expected_cost);
+    row("expected_cost", "", bvh.expected_cost);
     row("overlap", "", tree.overlap);
     if (const auto& bundle = bvh.bundle) {
       row("bundle_cost", "local", bundle->local);

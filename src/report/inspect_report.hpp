@@ -11,18 +11,20 @@
 
 namespace pah {
 
-// Of a ray of an influence area's bundle, whether it meets any box or not.
+// Expected, of a ray of an influence area's bundle, whether it meets any box or not.
 struct BundleCosts {
   double local = 0;   // in the area's own BVH
   double global = 0;  // in that of the whole scene
 };
 
-// The tree's measures and costs are those of `heuristic`, or for a local BVH those of its bundle.
+// The tree's measures and its cost are those of `heuristic`, or for a local BVH those of its
+// bundle.
 struct BvhReport {
   std::string name;
   std::string heuristic;
   TreeSummary tree;                        // as it was built, with two children a node
   std::uint64_t wide_nodes = 0;            // as it is traversed, with up to eight
+  double expected_cost = 0;                // so, of a ray that meets the root's box
   std::optional<CostSummary> camera_rays;  // of the global BVH
   std::optional<BundleCosts> bundle;       // of a local BVH
   std::uint64_t memory_bytes = 0;

@@ -40,7 +40,10 @@ JsonValue areas_json(const std::vector<AreaReport>& areas) {
                     {"predicted_cost", area.predicted_cost},
                     {"measured_cost", area.measured_cost},
                     {"global_cost", area.global_cost},
-                    {"rays", area.rays}});
+                    {"measured_global_cost", area.measured_global_cost},
+                    {"rays", area.rays},
+                    {"asked_rays", area.asked_rays},
+                    {"sampled_rays", area.sampled_rays}});
   return json;
 }
 

@@ -17,9 +17,13 @@ struct AreaReport {
   std::uint64_t triangles = 0;  // in its BVH
   bool built = false;
   std::string reason;  // why it was built, or was not
-  // Per ray; null in the JSON where nothing was built, or measured.
-  std::optional<double> predicted_cost, measured_cost, global_cost;
-  std::optional<std::uint64_t> rays;  // answered by the area alone
+  // Per ray, by the cost model of build_config.hpp; null in the JSON where nothing was built, or
+  // measured.
+  std::optional<double> predicted_cost, measured_cost;      // in its BVH
+  std::optional<double> global_cost, measured_global_cost;  // in that of the whole scene
+  std::optional<std::uint64_t> rays;                        // answered by the area alone
+  std::optional<std::uint64_t> asked_rays;                  // that measured_cost is of
+  std::optional<std::uint64_t> sampled_rays;  // of them, that measured_global_cost is of
 };
 
 struct RenderReport {

@@ -8,8 +8,8 @@
 #include <stdexcept>
 #include <unordered_map>
 
+#include "geometry/mix_bits.hpp"
 #include "geometry/normal.hpp"
-#include "scene/mix_bits.hpp"
 
 namespace pah {
 namespace {

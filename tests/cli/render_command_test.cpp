@@ -289,7 +289,11 @@ TEST_CASE("a declared influence area is built and measured, and left out by --ac
   CHECK(built["triangles"] == 14);
   CHECK(built["rays"] > 0);
   CHECK(built["rays"] <= local["rays"]["shadow"]);
-  for (const char* cost : {"predicted_cost", "measured_cost", "global_cost"}) {
+  CHECK(built["rays"] <= built["asked_rays"]);
+  CHECK(built["sampled_rays"] > 0);
+  CHECK(built["sampled_rays"] < built["asked_rays"]);
+  for (const char* cost :
+       {"predicted_cost", "measured_cost", "global_cost", "measured_global_cost"}) {
     CAPTURE(cost);
     CHECK(built[cost] > 0);
   }
@@ -297,7 +301,8 @@ TEST_CASE("a declared influence area is built and measured, and left out by --ac
   CHECK(left_out["name"] == "bulb -x");
   CHECK(left_out["built"] == false);
   CHECK(left_out["reason"].get<std::string>().find("not expected") != std::string::npos);
-  for (const char* key : {"predicted_cost", "measured_cost", "global_cost", "rays"}) {
+  for (const char* key : {"predicted_cost", "measured_cost", "global_cost", "measured_global_cost",
+                          "rays", "asked_rays", "sampled_rays"}) {
     CAPTURE(key);
     REQUIRE(left_out.contains(key));
     CHECK(left_out[key].is_null());

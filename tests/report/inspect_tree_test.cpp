@@ -25,7 +25,7 @@ TEST_CASE("A visit to an empty tree only ends") {
 }
 
 TEST_CASE("The summary of a tree is exact") {
-  const TreeSummary sum = summarize(test::hand_made_tree(), BuildConfig{}, each_box(SurfaceArea{}));
+  const TreeSummary sum = summarize(test::hand_made_tree(), each_box(SurfaceArea{}));
   CHECK(sum.triangles == 10);
   CHECK(sum.nodes == 5);
   CHECK(sum.leaves == 3);
@@ -47,22 +47,37 @@ TEST_CASE("The summary of a tree is exact") {
 
   // Two box tests for an inner node, one test of a block for up to four triangles: over the root's
   // area, 2 * 20 + 2 * 14 + 1.2 * (14 + 8 + 2 * 10).
-  CHECK(sum.expected_cost == Approx((2 * 20 + 2 * 14 + 1.2 * (14 + 8 + 2 * 10)) / 20));
+  CHECK(expected_cost(test::hand_made_tree(), {}, each_box(SurfaceArea{})) ==
+        Approx((2 * 20 + 2 * 14 + 1.2 * (14 + 8 + 2 * 10)) / 20));
+}
+
+TEST_CASE("The expected cost of a traversal is exact") {
+  const BinaryTree tree = test::hand_made_tree();
+  const std::vector<Vec3> positions(3);
+  const std::vector<UVec3> indices(10, UVec3{0, 1, 2});
+  const BoxMeasure measure = each_box(SurfaceArea{});
+  const Bvh bvh = collapse(tree, std::vector<float>{20, 14, 14, 8, 10},
+                           Triangles{positions, indices}, tree.order);
+  REQUIRE(bvh.nodes.size() == 1);
+  // One node for the three leaves' boxes, then a block each and a second one for five triangles.
+  CHECK(expected_cost(bvh, measure, 20) == Approx(1 + 1.2 * (14 + 8 + 2 * 10) / 20));
+  CHECK(expected_cost(bvh, measure, 40) == Approx(1 + 1.2 * (14 + 8 + 2 * 10) / 40));
+  CHECK(expected_cost(bvh, measure, 0) == 1);
+  CHECK(expected_cost(Bvh{}, measure, 20) == 0);
 }
 
 TEST_CASE("Siblings apart do not overlap, nor do those of a box without area") {
   BinaryTree tree = test::hand_made_tree();
   tree.nodes[4].box.min.x = 1.25F;
-  CHECK(summarize(tree, BuildConfig{}, each_box(SurfaceArea{})).levels[1].overlap == 0);
+  CHECK(summarize(tree, each_box(SurfaceArea{})).levels[1].overlap == 0);
   for (BinaryTree::Node& node : tree.nodes) node.box = {Vec3{1}, Vec3{1}};
-  CHECK(summarize(tree, BuildConfig{}, each_box(SurfaceArea{})).overlap == 0);
+  CHECK(summarize(tree, each_box(SurfaceArea{})).overlap == 0);
 }
 
 TEST_CASE("An empty tree has an empty summary") {
-  const TreeSummary sum = summarize(BinaryTree{}, BuildConfig{}, each_box(SurfaceArea{}));
+  const TreeSummary sum = summarize(BinaryTree{}, each_box(SurfaceArea{}));
   CHECK(sum.nodes == 0);
   CHECK(sum.levels.empty());
   CHECK(sum.mean_depth == 0);
   CHECK(sum.overlap == 0);
-  CHECK(sum.expected_cost == 0);
 }

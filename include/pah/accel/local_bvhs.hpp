@@ -28,8 +28,8 @@ struct LocalBvhReport {
   std::uint64_t triangles = 0;
   std::uint64_t bytes = 0;
   double build_seconds = 0;
-  // Expected cost of a ray of the bundle (box_cost and triangle_cost of build_config.hpp) in the
-  // local BVH and in the global one.
+  // Expected cost (build_config.hpp) in the local BVH, and in the global one, of a ray of the
+  // bundle that passes through the whole region and hits nothing; others end sooner.
   double predicted_cost = 0;
   double global_cost = 0;
 };
@@ -38,9 +38,10 @@ struct LocalBvhReport {
 struct LocalBvhUse {
   std::uint64_t asked = 0;     // rays traced through its BVH
   std::uint64_t answered = 0;  // those of them that the global BVH was not asked as well
-  // Of the rays asked: box_cost per node visited, of up to eight children, and triangle_cost per
-  // triangle tested. To be compared with other measured costs; predicted ones are of binary trees.
-  double cost = 0;
+  double cost = 0;             // in its BVH, of all rays asked
+  // A sample of the rays asked, and what it cost to trace them through the global BVH instead.
+  std::uint64_t sampled = 0;
+  double global_cost = 0;
 };
 
 class LocalBvhs : public Accelerator {

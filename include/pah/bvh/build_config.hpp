@@ -1,7 +1,14 @@
 // How a BVH is built, and the cost model that builder, estimates and counters share.
+//
+// Trees are built with two children a node and traversed with eight (src/bvh/bvh.hpp). The builder
+// and the study of trees as built (src/report/study) count box_cost for each of the two boxes of an
+// inner node. Predicted, expected and measured costs are of the traversal: box_cost for each inner
+// node visited, whose eight boxes are tested at once, and triangle_cost for each block of four
+// triangles tested.
 #pragma once
 
 #include <cstdint>
+#include <pah/bvh/traversal_counts.hpp>
 #include <pah/geometry/aabb.hpp>
 
 namespace pah {
@@ -14,6 +21,11 @@ inline constexpr float triangle_cost = 1.2F;  // of as many triangles as are tes
 [[nodiscard]] constexpr float leaf_cost(std::uint32_t triangles, std::uint32_t side_by_side) {
   const std::uint32_t rounds = (triangles + side_by_side - 1) / side_by_side;
   return triangle_cost * static_cast<float>(rounds);
+}
+
+[[nodiscard]] inline double traversal_cost(const TraversalCounts& counts) {
+  return double{box_cost} * static_cast<double>(counts.inner_nodes) +
+         double{triangle_cost} * static_cast<double>(counts.blocks);
 }
 
 // Bit i set: axis i may be split.
