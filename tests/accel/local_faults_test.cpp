@@ -1,6 +1,7 @@
 // One area a case, so that no other answers in its place: what goes wrong if a guard is forgotten.
 #include <cmath>
 #include <pah/accel/local_bvhs.hpp>
+#include <pah/influence/bundle_area.hpp>
 
 #include "accel/build_local.hpp"
 #include "accel/bundle_heuristic.hpp"
