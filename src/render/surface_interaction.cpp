@@ -7,6 +7,20 @@
 
 namespace pah {
 
+namespace {
+
+// How far the tangent planes at the vertices, each by its weight, lie above the point and below it
+// (Hanika, eq. 4.1 ff.), over 1 + the length of the interpolated normal. On a sphere of radius 1
+// that normal is the point p itself and the planes' height 1 - |p|^2, so this is 1 - |p|: the
+// sphere is met. Other surfaces are met to second order, and saddles exceeded, as the sides do not
+// cancel.
+Vec2 bulge(const Vec3& weighted_heights, float length) {
+  const Vec3 above = glm::max(weighted_heights, 0.0F), below = glm::max(-weighted_heights, 0.0F);
+  return Vec2(above.x + above.y + above.z, below.x + below.y + below.z) / (1 + length);
+}
+
+}  // namespace
+
 Vec2 uv_at(const World& world, std::uint32_t triangle, const Vec2& barycentrics) {
   if (!world.surfaces[world.surface_of_triangle[triangle]].has_uvs) return barycentrics;
   const UVec3& k = world.indices[triangle];
@@ -28,12 +42,22 @@ SurfaceInteraction interact(const World& world, const Hit& hit) {
   at.normal = at.point.normal;
 
   if (at.surface->has_normals) {
-    const Vec3 sum =
-        b0 * world.normals[k.x] + hit.u * world.normals[k.y] + hit.v * world.normals[k.z];
+    const Vec3 &na = world.normals[k.x], &nb = world.normals[k.y], &nc = world.normals[k.z];
+    const Vec3 sum = b0 * na + hit.u * nb + hit.v * nc;
     const float length = glm::length(sum);
     if (length > 0) {
       at.normal = sum / length;
-      if (glm::dot(at.normal, at.point.normal) < 0) at.normal = -at.normal;
+      at.curved = na != nb || na != nc;
+      if (at.curved) {
+        const Vec3& p = at.point.position;
+        const Vec3 heights(glm::dot(triangle.a - p, na), glm::dot(triangle.b - p, nb),
+                           glm::dot(triangle.c - p, nc));
+        at.bulge = bulge(Vec3(b0, hit.u, hit.v) * heights, length);
+      }
+      if (glm::dot(at.normal, at.point.normal) < 0) {
+        at.normal = -at.normal;
+        at.bulge = {at.bulge.y, at.bulge.x};
+      }
       at.smooth = at.normal != at.point.normal;
     }
   }
@@ -60,9 +84,20 @@ Vec3 visible_normal(const Vec3& shading, const Vec3& geometric, const Vec3& wo) 
   return shading - 2 * cosine * wo;
 }
 
-float terminator_fade(const Vec3& shading, const Vec3& geometric, const Vec3& wi) {
-  const float g = std::abs(glm::dot(geometric, wi)) /
-                  (std::abs(glm::dot(shading, wi)) * std::abs(glm::dot(geometric, shading)));
+SurfacePoint curved_point(const SurfaceInteraction& at, const Vec3& wo) {
+  const bool behind = glm::dot(wo, at.point.normal) < 0;
+  const Vec3 lift = (behind ? -at.bulge.y : at.bulge.x) * at.normal;
+  SurfacePoint point = at.point;
+  point.position += lift;
+  // It must not end up on the other side: the sum is rounded, and so was the sign of the product of
+  // the normals.
+  point.error += rounding_bound(1) * glm::abs(point.position) + rounding_bound(4) * glm::abs(lift);
+  return point;
+}
+
+float terminator_fade(const Vec3& shading, const Vec3& surface, const Vec3& wi) {
+  const float g = std::abs(glm::dot(surface, wi)) /
+                  (std::abs(glm::dot(shading, wi)) * std::abs(glm::dot(surface, shading)));
   if (!(g < 1)) return 1;
   return g * (1 + g * (1 - g));
 }

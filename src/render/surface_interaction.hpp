@@ -16,6 +16,8 @@ struct SurfaceInteraction {
   float uv_per_length = 0;  // texture coordinates per unit of length
   bool mirrored = false;    // growing u, growing v and the normal are left-handed
   bool smooth = false;      // the two normals differ
+  bool curved = false;      // the vertices' normals differ: the facet stands for a curved surface,
+  Vec2 bulge{0};            // that far from it on the normal's side and, as saddles, on the other
   const Surface* surface = nullptr;
 };
 
@@ -28,9 +30,14 @@ struct SurfaceInteraction {
 // mirrored about the plane across `wo`, which is continuous and turns it towards the geometric one.
 [[nodiscard]] Vec3 visible_normal(const Vec3& shading, const Vec3& geometric, const Vec3& wo);
 
-// Light that reaches a surface by its shading normal, yet grazes or misses the geometry, fades out
-// instead of being cut off at the facets: Chiang, Li & Burley, "Taming the Shadow Terminator"
-// (SIGGRAPH 2019 talks). In [0, 1]; 1 where the normals agree.
-[[nodiscard]] float terminator_fade(const Vec3& shading, const Vec3& geometric, const Vec3& wi);
+// The point of the curved surface over a facet's point, as seen from `wo`. Light that is reflected
+// there is not cut off by the facets around: Hanika, "Hacking the Shadow Terminator" (Ray Tracing
+// Gems II, chapter 4).
+[[nodiscard]] SurfacePoint curved_point(const SurfaceInteraction& at, const Vec3& wo);
+
+// Light that reaches a surface by its shading normal, yet grazes or misses the surface itself,
+// fades out instead of being cut off: Chiang, Li & Burley, "Taming the Shadow Terminator" (SIGGRAPH
+// 2019 talks). In [0, 1]; 1 where the normals agree.
+[[nodiscard]] float terminator_fade(const Vec3& shading, const Vec3& surface, const Vec3& wi);
 
 }  // namespace pah
