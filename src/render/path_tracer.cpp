@@ -17,12 +17,17 @@ struct Scattering {
   bool smooth = false;  // some lobe is no delta
   bool tilted = false;  // the shading normal is not the surface's own
   SurfacePoint from;    // where light is scattered,
-  Vec3 surface{0};      // and the surface's own normal: that of the facet or of what it stands for
+  bool lifted = false;  // off the facet, which may then be passed;
+  Vec3 surface{0};      // the surface's own normal: that of the facet or of what it stands for
   LitPoint lit;
 
+  // Whether the normals agree on what is reflected and what passes through.
   [[nodiscard]] bool consistent(const Vec3& world_wi, const Vec3& wi) const {
     const bool reflects = wo.z * wi.z > 0;
-    return reflects == (glm::dot(surface, world_wo) * glm::dot(surface, world_wi) > 0);
+    const auto agrees = [&](const Vec3& normal) {
+      return reflects == (glm::dot(normal, world_wo) * glm::dot(normal, world_wi) > 0);
+    };
+    return agrees(surface) && (lifted || agrees(from.normal));
   }
   // The side of the facet on which light that goes on towards world_wi does so.
   [[nodiscard]] const Vec3& side(const Vec3& world_wi, const Vec3& wi) const {
@@ -65,7 +70,9 @@ Scattering scatter_at(const World& world, const TextureStore& textures,
   // Light that may pass must start where it met the facet, lest it meet it again.
   const bool curved = at.curved && !std::holds_alternative<GlassMaterial>(material.model);
   Scattering s;
-  s.from = curved ? curved_point(at, wo) : at.point;
+  const float lift = curved ? at.lift(wo) : 0;
+  s.lifted = lift != 0;
+  s.from = s.lifted ? lifted_point(at, lift) : at.point;
   s.surface = curved ? visible_normal(at.normal, at.point.normal, wo) : at.point.normal;
   Vec3 normal = curved ? s.surface : at.normal;
   bool tilted = at.smooth && !curved;

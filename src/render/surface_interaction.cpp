@@ -9,13 +9,16 @@ namespace pah {
 
 namespace {
 
-// How far the tangent planes at the vertices, each by its weight, lie above the point and below it
-// (Hanika, eq. 4.1 ff.), over 1 + the length of the interpolated normal. On a sphere of radius 1
-// that normal is the point p itself and the planes' height 1 - |p|^2, so this is 1 - |p|: the
-// sphere is met. Other surfaces are met to second order, and saddles exceeded, as the sides do not
-// cancel.
-Vec2 bulge(const Vec3& weighted_heights, float length) {
-  const Vec3 above = glm::max(weighted_heights, 0.0F), below = glm::max(-weighted_heights, 0.0F);
+// How far the curved surface lies above the point at the barycentrics b and below it. Hanika takes
+// the mean height of the tangent planes at the vertices, which is the sum over the edges of b_i b_j
+// dot(v_i - v_j, n_i - n_j). That much over 1 + the length of the interpolated normal n is where
+// the surface is: exactly on a unit sphere, where the sum is 1 - |n|^2 and the point n itself, and
+// to second order elsewhere. Edges that bend up and down, on saddles, do not cancel.
+Vec2 bulge(const Triangle& v, const Triangle& n, const Vec3& b, float length) {
+  const Vec3 edges(b.x * b.y * glm::dot(v.a - v.b, n.a - n.b),
+                   b.y * b.z * glm::dot(v.b - v.c, n.b - n.c),
+                   b.z * b.x * glm::dot(v.c - v.a, n.c - n.a));
+  const Vec3 above = glm::max(edges, 0.0F), below = glm::max(-edges, 0.0F);
   return Vec2(above.x + above.y + above.z, below.x + below.y + below.z) / (1 + length);
 }
 
@@ -42,18 +45,13 @@ SurfaceInteraction interact(const World& world, const Hit& hit) {
   at.normal = at.point.normal;
 
   if (at.surface->has_normals) {
-    const Vec3 &na = world.normals[k.x], &nb = world.normals[k.y], &nc = world.normals[k.z];
-    const Vec3 sum = b0 * na + hit.u * nb + hit.v * nc;
+    const Triangle n{world.normals[k.x], world.normals[k.y], world.normals[k.z]};
+    const Vec3 sum = b0 * n.a + hit.u * n.b + hit.v * n.c;
     const float length = glm::length(sum);
     if (length > 0) {
       at.normal = sum / length;
-      at.curved = na != nb || na != nc;
-      if (at.curved) {
-        const Vec3& p = at.point.position;
-        const Vec3 heights(glm::dot(triangle.a - p, na), glm::dot(triangle.b - p, nb),
-                           glm::dot(triangle.c - p, nc));
-        at.bulge = bulge(Vec3(b0, hit.u, hit.v) * heights, length);
-      }
+      at.curved = n.a != n.b || n.a != n.c;
+      if (at.curved) at.bulge = bulge(triangle, n, {b0, hit.u, hit.v}, length);
       if (glm::dot(at.normal, at.point.normal) < 0) {
         at.normal = -at.normal;
         at.bulge = {at.bulge.y, at.bulge.x};
@@ -84,14 +82,14 @@ Vec3 visible_normal(const Vec3& shading, const Vec3& geometric, const Vec3& wo) 
   return shading - 2 * cosine * wo;
 }
 
-SurfacePoint curved_point(const SurfaceInteraction& at, const Vec3& wo) {
-  const bool behind = glm::dot(wo, at.point.normal) < 0;
-  const Vec3 lift = (behind ? -at.bulge.y : at.bulge.x) * at.normal;
+SurfacePoint lifted_point(const SurfaceInteraction& at, float lift) {
+  const Vec3 offset = lift * at.normal;
   SurfacePoint point = at.point;
-  point.position += lift;
-  // It must not end up on the other side: the sum is rounded, and so was the sign of the product of
-  // the normals.
-  point.error += rounding_bound(1) * glm::abs(point.position) + rounding_bound(4) * glm::abs(lift);
+  point.position += offset;
+  // Not to end up behind the facet: the sum is rounded, and so was the sign of the normals'
+  // product.
+  point.error +=
+      rounding_bound(1) * glm::abs(point.position) + rounding_bound(4) * glm::abs(offset);
   return point;
 }
 

@@ -19,6 +19,12 @@ struct SurfaceInteraction {
   bool curved = false;      // the vertices' normals differ: the facet stands for a curved surface,
   Vec2 bulge{0};            // that far from it on the normal's side and, as saddles, on the other
   const Surface* surface = nullptr;
+
+  // How far along the normal the curved surface is, as seen from `wo`; zero if it is behind the
+  // facet.
+  [[nodiscard]] float lift(const Vec3& wo) const {
+    return glm::dot(wo, point.normal) < 0 ? -bulge.y : bulge.x;
+  }
 };
 
 [[nodiscard]] SurfaceInteraction interact(const World& world, const Hit& hit);
@@ -30,10 +36,10 @@ struct SurfaceInteraction {
 // mirrored about the plane across `wo`, which is continuous and turns it towards the geometric one.
 [[nodiscard]] Vec3 visible_normal(const Vec3& shading, const Vec3& geometric, const Vec3& wo);
 
-// The point of the curved surface over a facet's point, as seen from `wo`. Light that is reflected
-// there is not cut off by the facets around: Hanika, "Hacking the Shadow Terminator" (Ray Tracing
-// Gems II, chapter 4).
-[[nodiscard]] SurfacePoint curved_point(const SurfaceInteraction& at, const Vec3& wo);
+// The point lifted off the facet onto the curved surface, where light that it reflects is not cut
+// off by the facets around: Hanika, "Hacking the Shadow Terminator" (Ray Tracing Gems II, chapter
+// 4).
+[[nodiscard]] SurfacePoint lifted_point(const SurfaceInteraction& at, float lift);
 
 // Light that reaches a surface by its shading normal, yet grazes or misses the surface itself,
 // fades out instead of being cut off: Chiang, Li & Burley, "Taming the Shadow Terminator" (SIGGRAPH
