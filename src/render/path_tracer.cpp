@@ -67,7 +67,7 @@ float footprint_on(const SurfaceInteraction& at, const Vec3& direction, float wi
 Scattering scatter_at(const World& world, const TextureStore& textures,
                       const SurfaceInteraction& at, const Vec3& wo, float footprint) {
   const Material& material = world.materials[at.surface->material];
-  // Light that may pass must start where it met the facet, lest it meet it again.
+  // Light that passes through must start at the facet, lest it meet it again.
   const bool curved = at.curved && !std::holds_alternative<GlassMaterial>(material.model);
   Scattering s;
   const float lift = curved ? at.lift(wo) : 0;

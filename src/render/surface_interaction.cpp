@@ -9,11 +9,11 @@ namespace pah {
 
 namespace {
 
-// How far the curved surface lies above the point at the barycentrics b and below it. Hanika takes
-// the mean height of the tangent planes at the vertices, which is the sum over the edges of b_i b_j
-// dot(v_i - v_j, n_i - n_j). That much over 1 + the length of the interpolated normal n is where
-// the surface is: exactly on a unit sphere, where the sum is 1 - |n|^2 and the point n itself, and
-// to second order elsewhere. Edges that bend up and down, on saddles, do not cancel.
+// How far the curved surface lies above the point with barycentrics b, and below it. Hanika's mean
+// height of the tangent planes at the vertices is the sum of b_i b_j dot(v_i - v_j, n_i - n_j) over
+// the edges. Divided by 1 + the length of the interpolated normal n it reaches the surface: exactly
+// on a unit sphere, where the sum is 1 - |n|^2 and the point is n, and to second order elsewhere.
+// Edges that bend up and edges that bend down, on saddles, do not cancel.
 Vec2 bulge(const Triangle& v, const Triangle& n, const Vec3& b, float length) {
   const Vec3 edges(b.x * b.y * glm::dot(v.a - v.b, n.a - n.b),
                    b.y * b.z * glm::dot(v.b - v.c, n.b - n.c),
@@ -86,8 +86,7 @@ SurfacePoint lifted_point(const SurfaceInteraction& at, float lift) {
   const Vec3 offset = lift * at.normal;
   SurfacePoint point = at.point;
   point.position += offset;
-  // Not to end up behind the facet: the sum is rounded, and so was the sign of the normals'
-  // product.
+  // The sum is rounded, as was the product of the normals, whose sign tells up from down.
   point.error +=
       rounding_bound(1) * glm::abs(point.position) + rounding_bound(4) * glm::abs(offset);
   return point;
