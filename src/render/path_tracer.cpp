@@ -15,12 +15,23 @@ struct Scattering {
   Vec3 wo{0};           // in the frame
   Vec3 world_wo{0};     // towards where the path came from
   bool smooth = false;  // some lobe is no delta
-  bool tilted = false;  // the shading normal is not the geometric one
+  bool tilted = false;  // the shading normal is not the surface's own
+  SurfacePoint from;    // where light is scattered,
+  bool lifted = false;  // off the facet, which may then be passed;
+  Vec3 surface{0};      // the surface's own normal: that of the facet or of what it stands for
   LitPoint lit;
 
-  [[nodiscard]] bool consistent(const Vec3& geometric, const Vec3& world_wi, const Vec3& wi) const {
+  // Whether the normals agree on what is reflected and what passes through.
+  [[nodiscard]] bool consistent(const Vec3& world_wi, const Vec3& wi) const {
     const bool reflects = wo.z * wi.z > 0;
-    return reflects == (glm::dot(geometric, world_wo) * glm::dot(geometric, world_wi) > 0);
+    const auto agrees = [&](const Vec3& normal) {
+      return reflects == (glm::dot(normal, world_wo) * glm::dot(normal, world_wi) > 0);
+    };
+    return agrees(surface) && (lifted || agrees(from.normal));
+  }
+  // The side of the facet on which light that goes on towards world_wi does so.
+  [[nodiscard]] const Vec3& side(const Vec3& world_wi, const Vec3& wi) const {
+    return wo.z * wi.z > 0 ? world_wo : world_wi;
   }
 };
 
@@ -56,8 +67,15 @@ float footprint_on(const SurfaceInteraction& at, const Vec3& direction, float wi
 Scattering scatter_at(const World& world, const TextureStore& textures,
                       const SurfaceInteraction& at, const Vec3& wo, float footprint) {
   const Material& material = world.materials[at.surface->material];
-  Vec3 normal = at.normal;
-  bool tilted = at.smooth;
+  // Light that passes through must start at the facet, lest it meet it again.
+  const bool curved = at.curved && !std::holds_alternative<GlassMaterial>(material.model);
+  Scattering s;
+  const float lift = curved ? at.lift(wo) : 0;
+  s.lifted = lift != 0;
+  s.from = s.lifted ? lifted_point(at, lift) : at.point;
+  s.surface = curved ? visible_normal(at.normal, at.point.normal, wo) : at.point.normal;
+  Vec3 normal = curved ? s.surface : at.normal;
+  bool tilted = at.smooth && !curved;
   if (material.normal_map != no_texture) {
     Vec3 mapped = mapped_normal(material, textures, at.uv, footprint);
     if (at.mirrored) mapped.y = -mapped.y;
@@ -66,14 +84,13 @@ Scattering scatter_at(const World& world, const TextureStore& textures,
   }
   if (tilted) normal = visible_normal(normal, at.point.normal, wo);
 
-  Scattering s;
   s.bsdf = resolve_material(material, textures, at.uv, footprint);
   s.frame = make_frame(normal);
   s.world_wo = wo;
   s.wo = s.frame.local_from_world(wo);
   s.smooth = has_smooth_lobes(s.bsdf);
   s.tilted = tilted;
-  s.lit = {at.point.position, s.wo.z < 0 ? -normal : normal,
+  s.lit = {s.from.position, s.wo.z < 0 ? -normal : normal,
            std::holds_alternative<GlassBsdf>(s.bsdf)};
   return s;
 }
@@ -191,9 +208,9 @@ bool PathTracer::shade_path(Path& path, Ray& ray, const Hit& hit, PathBatch& bat
       sample.normal = scattering.lit.normal;
       path.features_found = true;
     }
-    gather_shadow(path, at, scattering, batch);
+    gather_shadow(path, scattering, batch);
   }
-  return scatter(path, ray, at, scattering);
+  return scatter(path, ray, scattering);
 }
 
 // How much of the light that a ray met by chance counts, given that next-event estimation might
@@ -226,8 +243,7 @@ void PathTracer::add_emission(const Path& path, const Ray& ray, const Hit& hit,
 }
 
 // Next-event estimation: one light, one direction, one segment to be resolved with the others.
-void PathTracer::gather_shadow(Path& path, const SurfaceInteraction& at,
-                               const Scattering& scattering, PathBatch& batch) const {
+void PathTracer::gather_shadow(Path& path, const Scattering& scattering, PathBatch& batch) const {
   if (lights_.sampler().empty()) return;
   const float u_choice = lights_.sampler().only() == no_light ? path.sampler.next_1d() : 0;
   const auto choice = lights_.sampler().choose(scattering.lit, u_choice);
@@ -238,11 +254,11 @@ void PathTracer::gather_shadow(Path& path, const SurfaceInteraction& at,
   if (!drawn || (settings_.strategy == Strategy::bsdf && !drawn->delta)) return;
 
   const Vec3 wi = scattering.frame.local_from_world(drawn->direction);
-  if (!scattering.consistent(at.point.normal, drawn->direction, wi)) return;
+  if (!scattering.consistent(drawn->direction, wi)) return;
   Vec3 value = evaluate(scattering.bsdf, scattering.wo, wi);
   if (is_black(value)) return;
   if (scattering.tilted && scattering.wo.z * wi.z > 0) {
-    value *= terminator_fade(scattering.frame.z, at.point.normal, drawn->direction);
+    value *= terminator_fade(scattering.frame.z, scattering.surface, drawn->direction);
   }
   if (any_masked_ && drawn->triangle != no_triangle) {
     value *= opacity_at(drawn->triangle, drawn->barycentrics, 0);
@@ -255,20 +271,20 @@ void PathTracer::gather_shadow(Path& path, const SurfaceInteraction& at,
   const Vec3 contribution = path.throughput * value * drawn->radiance * (weight / light_pdf);
   if (is_black(contribution)) return;
 
+  const Vec3& side = scattering.side(drawn->direction, wi);
   batch.shadow_tasks[batch.shadows] = {contribution, path.slot};
   if (drawn->distant) {
     Ray& ray = batch.shadow_rays[batch.shadows];
-    ray = spawn_ray(at.point, drawn->direction);
+    ray = spawn_ray(scattering.from, drawn->direction, side);
     ray.bundle = choice->light;
   } else {
     batch.shadow_rays[batch.shadows] =
-        spawn_segment(at.point, drawn->target, drawn->target_error, choice->light);
+        spawn_segment(scattering.from, drawn->target, drawn->target_error, choice->light, side);
   }
   ++batch.shadows;
 }
 
-bool PathTracer::scatter(Path& path, Ray& ray, const SurfaceInteraction& at,
-                         const Scattering& scattering) const {
+bool PathTracer::scatter(Path& path, Ray& ray, const Scattering& scattering) const {
   const float u = path.sampler.next_1d();
   const Vec2 u2 = path.sampler.next_2d();
   const auto drawn = sample(scattering.bsdf, scattering.wo, u, u2);
@@ -279,10 +295,10 @@ bool PathTracer::scatter(Path& path, Ray& ray, const SurfaceInteraction& at,
     if (!counts || !lights_.any_visible()) return false;
   }
   const Vec3 direction = glm::normalize(scattering.frame.world_from_local(drawn->wi));
-  if (!scattering.consistent(at.point.normal, direction, drawn->wi)) return false;
+  if (!scattering.consistent(direction, drawn->wi)) return false;
   path.throughput *= drawn->weight;
   if (scattering.tilted && !drawn->specular && !drawn->transmission) {
-    path.throughput *= terminator_fade(scattering.frame.z, at.point.normal, direction);
+    path.throughput *= terminator_fade(scattering.frame.z, scattering.surface, direction);
   }
   if (is_black(path.throughput)) return false;
   path.bsdf_pdf = drawn->specular ? 0 : drawn->pdf;
@@ -305,7 +321,7 @@ bool PathTracer::scatter(Path& path, Ray& ray, const SurfaceInteraction& at,
       path.throughput /= survival;
     }
   }
-  ray = spawn_ray(at.point, direction);
+  ray = spawn_ray(scattering.from, direction, scattering.side(direction, drawn->wi));
   return true;
 }
 

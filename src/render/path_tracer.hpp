@@ -39,10 +39,8 @@ class PathTracer {
   void add_distant(const Path& path, const Ray& ray, PathSample& sample) const;
   void add_emission(const Path& path, const Ray& ray, const Hit& hit, const SurfaceInteraction& at,
                     PathSample& sample) const;
-  void gather_shadow(Path& path, const SurfaceInteraction& at, const struct Scattering& scattering,
-                     PathBatch& batch) const;
-  [[nodiscard]] bool scatter(Path& path, Ray& ray, const SurfaceInteraction& at,
-                             const struct Scattering& scattering) const;
+  void gather_shadow(Path& path, const struct Scattering& scattering, PathBatch& batch) const;
+  [[nodiscard]] bool scatter(Path& path, Ray& ray, const struct Scattering& scattering) const;
   [[nodiscard]] float emission_weight(const Path& path, float light_pdf, LightId light) const;
   [[nodiscard]] float opacity_at(std::uint32_t triangle, const Vec2& barycentrics,
                                  float footprint) const;

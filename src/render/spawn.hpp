@@ -44,21 +44,29 @@ inline Vec3 offset_point(const SurfacePoint& point, const Vec3& direction) {
   return moved;
 }
 
+// Where a facet stands for a curved surface, a ray may start on the side of the facet that `side`
+// points to, whatever its own direction.
+inline Ray spawn_ray(const SurfacePoint& from, const Vec3& direction, const Vec3& side) {
+  return {offset_point(from, side), std::numeric_limits<float>::infinity(), direction, no_bundle};
+}
 inline Ray spawn_ray(const SurfacePoint& from, const Vec3& direction) {
-  return {offset_point(from, direction), std::numeric_limits<float>::infinity(), direction,
-          no_bundle};
+  return spawn_ray(from, direction, direction);
 }
 
 // The segment from a surface to `target`, which is exact to within `target_error` (a length). It
 // ends short of the target by that error and by the rounding of the direction, both in units of
 // the segment's length.
 inline Ray spawn_segment(const SurfacePoint& from, const Vec3& target, float target_error,
-                         std::uint32_t bundle) {
-  const Vec3 origin = offset_point(from, target - from.position);
+                         std::uint32_t bundle, const Vec3& side) {
+  const Vec3 origin = offset_point(from, side);
   const Vec3 direction = target - origin;
   const float length = glm::length(direction);
   const float shortening = rounding_bound(8) + (length > 0 ? target_error / length : 1.0F);
   return {origin, std::fmax(0.0F, 1.0F - shortening), direction, bundle};
+}
+inline Ray spawn_segment(const SurfacePoint& from, const Vec3& target, float target_error,
+                         std::uint32_t bundle) {
+  return spawn_segment(from, target, target_error, bundle, target - from.position);
 }
 
 }  // namespace pah

@@ -7,6 +7,23 @@
 
 namespace pah {
 
+namespace {
+
+// How far the curved surface lies above the point with barycentrics b, and below it. Hanika's mean
+// height of the tangent planes at the vertices is the sum of b_i b_j dot(v_i - v_j, n_i - n_j) over
+// the edges. Divided by 1 + the length of the interpolated normal n it reaches the surface: exactly
+// on a unit sphere, where the sum is 1 - |n|^2 and the point is n, and to second order elsewhere.
+// Edges that bend up and edges that bend down, on saddles, do not cancel.
+Vec2 bulge(const Triangle& v, const Triangle& n, const Vec3& b, float length) {
+  const Vec3 edges(b.x * b.y * glm::dot(v.a - v.b, n.a - n.b),
+                   b.y * b.z * glm::dot(v.b - v.c, n.b - n.c),
+                   b.z * b.x * glm::dot(v.c - v.a, n.c - n.a));
+  const Vec3 above = glm::max(edges, 0.0F), below = glm::max(-edges, 0.0F);
+  return Vec2(above.x + above.y + above.z, below.x + below.y + below.z) / (1 + length);
+}
+
+}  // namespace
+
 Vec2 uv_at(const World& world, std::uint32_t triangle, const Vec2& barycentrics) {
   if (!world.surfaces[world.surface_of_triangle[triangle]].has_uvs) return barycentrics;
   const UVec3& k = world.indices[triangle];
@@ -28,12 +45,17 @@ SurfaceInteraction interact(const World& world, const Hit& hit) {
   at.normal = at.point.normal;
 
   if (at.surface->has_normals) {
-    const Vec3 sum =
-        b0 * world.normals[k.x] + hit.u * world.normals[k.y] + hit.v * world.normals[k.z];
+    const Triangle n{world.normals[k.x], world.normals[k.y], world.normals[k.z]};
+    const Vec3 sum = b0 * n.a + hit.u * n.b + hit.v * n.c;
     const float length = glm::length(sum);
     if (length > 0) {
       at.normal = sum / length;
-      if (glm::dot(at.normal, at.point.normal) < 0) at.normal = -at.normal;
+      at.curved = n.a != n.b || n.a != n.c;
+      if (at.curved) at.bulge = bulge(triangle, n, {b0, hit.u, hit.v}, length);
+      if (glm::dot(at.normal, at.point.normal) < 0) {
+        at.normal = -at.normal;
+        at.bulge = {at.bulge.y, at.bulge.x};
+      }
       at.smooth = at.normal != at.point.normal;
     }
   }
@@ -60,9 +82,19 @@ Vec3 visible_normal(const Vec3& shading, const Vec3& geometric, const Vec3& wo) 
   return shading - 2 * cosine * wo;
 }
 
-float terminator_fade(const Vec3& shading, const Vec3& geometric, const Vec3& wi) {
-  const float g = std::abs(glm::dot(geometric, wi)) /
-                  (std::abs(glm::dot(shading, wi)) * std::abs(glm::dot(geometric, shading)));
+SurfacePoint lifted_point(const SurfaceInteraction& at, float lift) {
+  const Vec3 offset = lift * at.normal;
+  SurfacePoint point = at.point;
+  point.position += offset;
+  // The sum is rounded, as was the product of the normals, whose sign tells up from down.
+  point.error +=
+      rounding_bound(1) * glm::abs(point.position) + rounding_bound(4) * glm::abs(offset);
+  return point;
+}
+
+float terminator_fade(const Vec3& shading, const Vec3& surface, const Vec3& wi) {
+  const float g = std::abs(glm::dot(surface, wi)) /
+                  (std::abs(glm::dot(shading, wi)) * std::abs(glm::dot(surface, shading)));
   if (!(g < 1)) return 1;
   return g * (1 + g * (1 - g));
 }

@@ -76,6 +76,15 @@ TEST_CASE("white furnace: an open white box keeps no light to itself") {
   check_radiance_one(builder.scene);
 }
 
+TEST_CASE("white furnace: a coarse ball with smooth normals does not shadow itself") {
+  for (const Strategy strategy : {Strategy::mis, Strategy::nee, Strategy::bsdf}) {
+    SceneBuilder builder = ball_under_sky(DiffuseMaterial{{Vec3(1), no_texture}}, 64);
+    builder.scene.meshes[0] = make_mesh(SphereShape{0.5, 24, 12});
+    builder.scene.render.strategy = strategy;
+    check_radiance_one(builder.scene);
+  }
+}
+
 TEST_CASE("white furnace: glass and mirror") {
   check_radiance_one(ball_under_sky(GlassMaterial{}, 256).scene);
   check_radiance_one(ball_under_sky(MirrorMaterial{}, 16).scene);

@@ -35,10 +35,19 @@ SceneBuilder room(double scale = 1, DVec3 offset = DVec3(0)) {
   return builder;
 }
 
-}  // namespace
+// A coarse body that stands for a smooth one and touches the floor, under a large lamp nearby.
+SceneBuilder coarse_ball() {
+  SceneBuilder builder;
+  builder.add(RectangleShape{{4, 4}}, builder.diffuse(0.7F));
+  builder.add(SphereShape{0.5, 10, 5}, builder.material(PlasticMaterial{}), moved({0, 0.5, 0}));
+  const LightId panel = builder.light(AreaLight{Vec3(6), true});
+  builder.add(RectangleShape{{0.8, 0.8}}, 0, moved({0.8, 0.8, 0}) * turned(60, {0, 0, 1}), panel);
+  builder.look({0, 1.5, 4}, {0, 0.5, 0}, 20);
+  builder.film(32, 64);
+  return builder;
+}
 
-TEST_CASE("next-event estimation, BSDF sampling and both together agree") {
-  Scene scene = room().scene;
+void check_strategies_agree(Scene scene) {
   scene.render.samples = 1024;
   std::array<Estimate, 3> e;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -51,6 +60,13 @@ TEST_CASE("next-event estimation, BSDF sampling and both together agree") {
   CHECK(welch_p(e[0], e[1]) > 0.01);
   CHECK(welch_p(e[0], e[2]) > 0.01);
   CHECK(welch_p(e[1], e[2]) > 0.01);
+}
+
+}  // namespace
+
+TEST_CASE("next-event estimation, BSDF sampling and both together agree") {
+  check_strategies_agree(room().scene);
+  check_strategies_agree(coarse_ball().scene);
 }
 
 TEST_CASE("Russian roulette does not change the mean") {
