@@ -140,8 +140,9 @@ inline bool identical(const Film& a, const Film& b) {
   for (std::size_t i = 0; i < a.pixels.size(); ++i) {
     const FilmPixel& p = a.pixels[i];
     const FilmPixel& q = b.pixels[i];
-    if (p.sum != q.sum || p.rest != q.rest || p.sum_of_squares != q.sum_of_squares || p.albedo != q.albedo ||
-        p.normal != q.normal || p.samples != q.samples || p.hits != q.hits) {
+    if (p.sum != q.sum || p.rest != q.rest || p.sum_of_squares != q.sum_of_squares ||
+        p.albedo != q.albedo || p.normal != q.normal || p.samples != q.samples ||
+        p.hits != q.hits) {
       return false;
     }
   }
