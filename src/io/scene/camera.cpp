@@ -33,8 +33,7 @@ void read_pose(MapReader& map, CameraType& camera) {
     map.error("up", map.name_of("up") + " is parallel to the viewing direction");
 }
 
-void read_perspective(MapReader& map, PerspectiveCamera& camera) {
-  read_pose(map, camera);
+void read_lens(MapReader& map, PerspectiveCamera& camera) {
   map.optional("fov", camera.fov, Range{0, 180, true, true});
   map.optional("aperture_radius", camera.aperture_radius, not_negative);
   double focus = 0;
@@ -101,12 +100,13 @@ void read_channels(MapReader& film, FilmSettings& settings) {
 }  // namespace
 
 void read_camera(SceneReading& reading, const YamlNode* node) {
-  reading.has_camera = node != nullptr;
+  reading.camera = node;
   read_variant(reading.context, node, "camera", "camera", "type", {"perspective", "orthographic"},
                perspective, [&](MapReader& map, std::size_t type) {
                  if (type == perspective) {
                    PerspectiveCamera camera;
-                   read_perspective(map, camera);
+                   read_pose(map, camera);
+                   read_lens(map, camera);
                    reading.scene.camera = camera;
                  } else {
                    OrthographicCamera camera;
@@ -115,6 +115,28 @@ void read_camera(SceneReading& reading, const YamlNode* node) {
                    reading.scene.camera = camera;
                  }
                });
+}
+
+void adopt_camera(SceneReading& reading, const Camera& camera, const Mark& mark) {
+  reading.scene.camera = camera;
+  const YamlNode* node = reading.camera;
+  if (node == nullptr || node->kind != YamlNode::Kind::map) return;
+  for (const YamlEntry& entry : node->entries)
+    if (entry.key != "fov" && entry.key != "aperture_radius" && entry.key != "focus_distance") {
+      reading.context.errors.add(mark,
+                                 "the scene has a camera already: beside a mesh file's, "
+                                 "'camera' may have fov, aperture_radius and focus_distance");
+      return;
+    }
+  auto* const perspective_camera = std::get_if<PerspectiveCamera>(&reading.scene.camera);
+  if (perspective_camera == nullptr) {
+    reading.context.errors.add(node->mark,
+                               "the mesh file's camera is orthographic: it has no lens");
+    return;
+  }
+  // What is wrong with it has been reported when the section was read.
+  MapReader map(reading.context, node, "camera perspective", "camera");
+  read_lens(map, *perspective_camera);
 }
 
 void read_film(SceneReading& reading, const YamlNode* node) {

@@ -4,6 +4,7 @@
 #include <type_traits>
 
 #include "io/mesh/folder.hpp"
+#include "io/yaml/suggest.hpp"
 
 namespace pah {
 namespace {
@@ -111,6 +112,31 @@ Light moved(Light light, const glm::dmat4x3& m) {
   return light;
 }
 
+Light scaled(Light light, double factor) {
+  std::visit(
+      [&](auto& model) {
+        const auto scale = static_cast<float>(factor);
+        if constexpr (requires { model.intensity; }) model.intensity *= scale;
+        if constexpr (requires { model.irradiance; }) model.irradiance *= scale;
+      },
+      light.model);
+  return light;
+}
+
+// The one that is asked for by name, or the first.
+const NamedCamera* chosen_camera(SceneReading& reading, const ImportedFile& file,
+                                 const std::string& name, const Mark& mark) {
+  std::vector<std::string> names;
+  for (const NamedCamera& camera : file.cameras) {
+    if (name.empty() || camera.name == name) return &camera;
+    names.push_back(camera.name);
+  }
+  reading.context.errors.add(mark, names.empty() ? "the mesh file has no camera"
+                                                 : "the mesh file has no camera '" + name + "'" +
+                                                       suggestion_and_options(name, names));
+  return nullptr;
+}
+
 Camera moved(Camera camera, const glm::dmat4x3& m) {
   std::visit(
       [&](auto& model) {
@@ -154,6 +180,32 @@ const ImportedFile* import_file(SceneReading& reading, const YamlNode& node, con
   }
 }
 
+std::vector<MaterialId> materials_of(SceneReading& reading, const ImportedFile& file,
+                                     const FileUse& use) {
+  std::vector<MaterialId> materials;
+  std::vector<std::string> names;
+  for (const MeshFilePart& part : file.parts) {
+    materials.push_back(part.material);
+    names.push_back(use.materials ? reading.scene.materials[part.material].name : "");
+  }
+  for (const FileUse::Replacement& replacement : use.replacements) {
+    bool found = false;
+    for (std::size_t i = 0; i < materials.size(); ++i) {
+      if (names[i] != replacement.name) continue;
+      materials[i] = replacement.by;
+      found = true;
+    }
+    if (found) continue;
+    std::sort(names.begin(), names.end());
+    names.erase(std::unique(names.begin(), names.end()), names.end());
+    reading.context.errors.add(replacement.mark,
+                               "the mesh file uses no material '" + replacement.name + "'" +
+                                   suggestion_and_options(replacement.name, names));
+    break;
+  }
+  return materials;
+}
+
 std::vector<LightId> use_file(SceneReading& reading, const ImportedFile& file, const FileUse& use,
                               const std::string& mesh_name, const std::vector<glm::dmat4x3>& copies,
                               const Mark& mark) {
@@ -166,18 +218,17 @@ std::vector<LightId> use_file(SceneReading& reading, const ImportedFile& file, c
     return id;
   };
   if (use.cameras) {
-    if (reading.has_camera)
-      reading.context.errors.add(mark, "the scene has a camera already");
-    else if (file.cameras.empty())
-      reading.context.errors.add(mark, "the mesh file has no camera");
-    else
-      scene.camera = moved(file.cameras.front().camera, copies.front());
-    reading.has_camera = true;
+    if (reading.has_imported_camera)
+      reading.context.errors.add(mark, "the scene has a camera of a mesh file already");
+    else if (const NamedCamera* camera = chosen_camera(reading, file, use.camera, mark))
+      adopt_camera(reading, moved(camera->camera, copies.front()), mark);
+    reading.has_imported_camera = true;
   }
   std::vector<LightId> lights(file.parts.size(), no_light);
   if (!use.lights) return lights;
   for (const auto& copy : copies)
-    for (const Light& light : file.lights) add_light(moved(light, copy), light.name);
+    for (const Light& light : file.lights)
+      add_light(scaled(moved(light, copy), use.light_scale), light.name);
   std::unordered_map<MaterialId, LightId> emitters;
   for (std::size_t i = 0; i < file.parts.size(); ++i) {
     if (file.emission[i] == Vec3(0)) continue;
@@ -185,7 +236,8 @@ std::vector<LightId> use_file(SceneReading& reading, const ImportedFile& file, c
     const auto [entry, is_new] = emitters.emplace(material, no_light);
     if (is_new)
       entry->second =
-          add_light({"", AreaLight{file.emission[i], false}}, scene.materials[material].name);
+          add_light({"", AreaLight{file.emission[i] * static_cast<float>(use.light_scale), false}},
+                    scene.materials[material].name);
     lights[i] = entry->second;
   }
   return lights;

@@ -73,26 +73,43 @@ void read_shape_geometry(SceneReading& reading, MapReader& map, const YamlNode& 
 }
 
 // The keys that only files have, apart from `file` itself.
-void read_file_options(MapReader& map, MeshNormals& normals, FileUse& use) {
+void read_replacements(SceneReading& reading, MapReader& map, FileUse& use) {
+  const YamlNode* node = map.find("replace");
+  if (node == nullptr || !is_map(map.context(), node, map.name_of("replace"))) return;
+  for (const YamlEntry& entry : node->entries)
+    if (const auto material =
+            reading.materials.find(map.context(), *entry.value, map.name_of("replace")))
+      use.replacements.push_back({entry.key, *material, entry.mark});
+  if (!use.materials)
+    map.error("replace", "'replace' needs the file's materials: use: [materials]");
+}
+
+void read_file_options(SceneReading& reading, MapReader& map, MeshNormals& normals, FileUse& use) {
   map.option("normals", normals,
              EnumNames<MeshNormals>{{"file", MeshNormals::file},
                                     {"smooth", MeshNormals::smooth},
                                     {"flat", MeshNormals::flat}});
   const std::vector<std::string> options{"materials", "cameras", "lights"};
   const YamlNode* node = map.find("use", false, options);
-  if (node == nullptr || !is_list(map.context(), *node, map.name_of("use"))) return;
-  bool* const flags[] = {&use.materials, &use.cameras, &use.lights};
-  for (const YamlRef& item : node->items) {
-    const std::size_t index = read_option(map.context(), *item, map.name_of("use"), options);
-    if (index < options.size()) *flags[index] = true;
+  if (node != nullptr && is_list(map.context(), *node, map.name_of("use"))) {
+    bool* const flags[] = {&use.materials, &use.cameras, &use.lights};
+    for (const YamlRef& item : node->items) {
+      const std::size_t index = read_option(map.context(), *item, map.name_of("use"), options);
+      if (index < options.size()) *flags[index] = true;
+    }
   }
+  if (map.optional("use_camera", use.camera) && !use.cameras)
+    map.error("use_camera", "'use_camera' needs the file's cameras: use: [cameras]");
+  if (map.optional("light_scale", use.light_scale, not_negative) && !use.lights)
+    map.error("light_scale", "'light_scale' needs the file's lights: use: [lights]");
+  read_replacements(reading, map, use);
 }
 
 void read_file_geometry(SceneReading& reading, MapReader& map, const YamlNode& node,
                         const GeometryUse& use, const Transforms& copies) {
   MeshNormals normals = MeshNormals::file;
   FileUse file_use;
-  read_file_options(map, normals, file_use);
+  read_file_options(reading, map, normals, file_use);
   if (file_use.materials && use.material)
     map.error("use", map.title() + " takes either 'material' or the materials of its file");
   if (file_use.lights && use.light != no_light)
@@ -100,12 +117,14 @@ void read_file_geometry(SceneReading& reading, MapReader& map, const YamlNode& n
   const ImportedFile* file = import_file(reading, node, map.name_of("file"), normals, file_use);
   if (file == nullptr) return;
   const std::vector<LightId> lights =
-      use_file(reading, *file, file_use, use.name, copies, map.mark_of("use"));
+      use_file(reading, *file, file_use, use.name, copies,
+               map.mark_of(file_use.camera.empty() ? "use" : "use_camera"));
+  const std::vector<MaterialId> materials = materials_of(reading, *file, file_use);
   for (std::size_t i = 0; i < file->parts.size(); ++i) {
     const MeshFilePart& part = file->parts[i];
     Instance instance;
     instance.mesh = part.mesh;
-    instance.material = file_use.materials ? part.material
+    instance.material = file_use.materials ? materials[i]
                         : use.material     ? *use.material
                                            : unnamed_material(reading, 80);
     instance.light = use.light != no_light ? use.light : lights[i];
@@ -125,7 +144,7 @@ void describe_geometry(SceneReading& reading, MapReader& map) {
     branch.find("file", true);
     MeshNormals normals{};
     FileUse use;
-    read_file_options(branch, normals, use);
+    read_file_options(reading, branch, normals, use);
   });
 }
 

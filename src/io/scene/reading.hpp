@@ -70,7 +70,8 @@ struct SceneReading {
   std::unordered_map<std::string, ImportedFile> imported{};  // mesh files, by path and options
   std::unordered_map<int, MaterialId> unnamed_materials{};   // by reflectance in percent
   std::uint64_t triangles = 0;                               // of all instances so far
-  bool has_camera = false;                                   // the file has a camera section
+  const YamlNode* camera = nullptr;                          // the camera section
+  bool has_imported_camera = false;                          // from a mesh file
 };
 
 // "mesh 'floor'", or "mesh 3" (from 1) if it has no name.
@@ -78,6 +79,9 @@ struct SceneReading {
                                    std::size_t index);
 
 void read_camera(SceneReading& reading, const YamlNode* node);
+// Makes a mesh file's camera the scene's, adjusted by the camera section, which must not place one
+// itself. `mark` is where the file's camera is asked for.
+void adopt_camera(SceneReading& reading, const Camera& camera, const Mark& mark);
 void read_film(SceneReading& reading, const YamlNode* node);
 void read_render(SceneReading& reading, const YamlNode* node);
 void read_textures(SceneReading& reading, const YamlNode* node);
