@@ -62,7 +62,7 @@ class PictureInput final : public OIIO::ImageInput {
     if (picture_.forward_only && y < next_row_ && !open_again()) return false;
     next_row_ = y + 1;
     const std::size_t count = static_cast<std::size_t>(m_spec.width);
-    return deliver(count, data, [&](OIIO::TypeDesc type, void* texels) {
+    return deliver(count, data, [&](const OIIO::TypeDesc& type, void* texels) {
       return picture_.input->read_scanline(y, z, type, texels);
     });
   }
@@ -70,7 +70,7 @@ class PictureInput final : public OIIO::ImageInput {
   bool read_native_tile(int subimage, int miplevel, int x, int y, int z, void* data) override {
     const lock_guard lock(*this);
     if (!seek_subimage(subimage, miplevel)) return false;
-    return deliver(m_spec.tile_pixels(), data, [&](OIIO::TypeDesc type, void* texels) {
+    return deliver(m_spec.tile_pixels(), data, [&](const OIIO::TypeDesc& type, void* texels) {
       return picture_.input->read_tile(x, y, z, type, texels);
     });
   }

@@ -172,27 +172,26 @@ std::vector<Value> GltfBuffers::values(const Json& accessor, std::size_t compone
   return values;
 }
 
-std::vector<float> GltfBuffers::floats(std::size_t index, std::size_t components,
-                                       const std::string& what) const {
-  const std::string name = "accessor " + std::to_string(index);
-  const Json& accessor = list(document_.json, "accessors").at(index);
-  if (components_of(accessor.value("type", std::string()), name) != components)
-    throw MeshFileError(what + " is not of " + std::to_string(components) + " numbers each");
-  std::vector<float> result = values<float>(accessor, components, name);
-  if (accessor.value("normalized", false)) {
-    const float one = largest(accessor.at("componentType").get<int>());
+std::vector<float> GltfBuffers::floats(std::size_t accessor, std::size_t components,
+                                       const std::string& name) const {
+  const std::string place = "accessor " + std::to_string(accessor);
+  const Json& source = list(document_.json, "accessors").at(accessor);
+  if (components_of(source.value("type", std::string()), place) != components)
+    throw MeshFileError(name + " is not of " + std::to_string(components) + " numbers each");
+  std::vector<float> result = values<float>(source, components, place);
+  if (source.value("normalized", false)) {
+    const float one = largest(source.at("componentType").get<int>());
     for (float& value : result) value = std::max(value / one, -1.0F);
   }
   return result;
 }
 
-std::vector<std::uint32_t> GltfBuffers::indices(std::size_t index) const {
-  const Json& accessor = list(document_.json, "accessors").at(index);
-  const std::uint64_t type = number(accessor, "componentType", 0);
-  if (accessor.value("type", std::string()) != "SCALAR" ||
-      (type != u8 && type != u16 && type != u32))
+std::vector<std::uint32_t> GltfBuffers::indices(std::size_t accessor) const {
+  const Json& source = list(document_.json, "accessors").at(accessor);
+  const std::uint64_t type = number(source, "componentType", 0);
+  if (source.value("type", std::string()) != "SCALAR" || (type != u8 && type != u16 && type != u32))
     throw MeshFileError("the indices of a mesh are not whole numbers");
-  return values<std::uint32_t>(accessor, 1, "accessor " + std::to_string(index));
+  return values<std::uint32_t>(source, 1, "accessor " + std::to_string(accessor));
 }
 
 }  // namespace pah

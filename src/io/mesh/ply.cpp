@@ -144,11 +144,12 @@ class PlyReader {
     if (!text_) return load(next_bytes(type), type, swaps_);
     next_word();
     // Not as a float, which skips whole numbers above 2^24.
-    const char* const last = word_.data() + word_.size();
+    const char* const first = word_.data();
+    const char* const last = first + word_.size();
     std::int64_t whole = 0;
     const bool real = type == PlyType::f32 || type == PlyType::f64;
     if (!real) {
-      const auto [end, error] = std::from_chars(word_.data(), last, whole);
+      const auto [end, error] = std::from_chars(first, last, whole);
       if (error == std::errc{} && end == last) return static_cast<double>(whole);
     }
     float value = 0;

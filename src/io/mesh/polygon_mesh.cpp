@@ -1,7 +1,6 @@
 #include "io/mesh/polygon_mesh.hpp"
 
 #include <algorithm>
-#include <optional>
 #include <span>
 
 #include "geometry/normal.hpp"
@@ -65,7 +64,7 @@ class TriangleMaker {
         }
     }
     has_normals_ = normals && options_.normals == MeshNormals::file;
-    builder_.emplace(has_normals_, uvs, faces);
+    builder_ = MeshBuilder(has_normals_, uvs, faces);
   }
 
   void add(const Faces& run) {
@@ -84,7 +83,7 @@ class TriangleMaker {
     }
   }
 
-  [[nodiscard]] Mesh take() { return builder_->take(); }
+  [[nodiscard]] Mesh take() { return builder_.take(); }
 
  private:
   // A vertex of the mesh at hand, by that of the file.
@@ -104,7 +103,7 @@ class TriangleMaker {
   }
 
   void add(const std::uint32_t* corners, const UVec3& t) {
-    builder_->add_triangle({made(corners, t, 0), made(corners, t, 1), made(corners, t, 2)});
+    builder_.add_triangle({made(corners, t, 0), made(corners, t, 1), made(corners, t, 2)});
   }
 
   // The vertex for corner `k` of the triangle.
@@ -117,7 +116,7 @@ class TriangleMaker {
     if (flat) normal = flat_normal(corners, t);
     const Vec2 uv = vertex.uv == no_index ? Vec2(0) : polygons_.uvs[vertex.uv];
     const std::uint32_t result =
-        builder_->add_vertex(polygons_.positions[vertex.position], normal, uv);
+        builder_.add_vertex(polygons_.positions[vertex.position], normal, uv);
     // A normal of this triangle is not the vertex's elsewhere.
     if (!flat) known = {material_, result};
     return result;
@@ -145,7 +144,7 @@ class TriangleMaker {
   std::vector<Made> made_;
   std::uint32_t material_ = 0;
   bool has_normals_ = false;
-  std::optional<MeshBuilder> builder_;
+  MeshBuilder builder_{false, false, 0};
   std::vector<Vec3> points_;      // of the face at hand
   std::vector<UVec3> triangles_;  // of their numbers
 };

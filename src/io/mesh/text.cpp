@@ -105,11 +105,12 @@ int Words::column_of(std::string_view word) const {
 bool read_float(std::string_view word, float& value) {
   const bool negative = !word.empty() && word.front() == '-';
   if (negative || (!word.empty() && word.front() == '+')) word.remove_prefix(1);
-  const char* const end = word.data() + word.size();
+  const char* const begin = word.data();
+  const char* const end = begin + word.size();
   Decimal number;
-  if (!read_decimal(word.data(), end, number)) return false;
+  if (!read_decimal(begin, end, number)) return false;
   if (!round_fast(number, value)) {
-    const std::errc error = std::from_chars(word.data(), end, value).ec;
+    const std::errc error = std::from_chars(begin, end, value).ec;
     if (error == std::errc::result_out_of_range) {
       if (number.count + number.exponent > 0) return false;
       value = 0;

@@ -13,6 +13,7 @@ void check_pictures(SceneReading& reading) {
     std::uint64_t unusable = 0;
   };
   std::vector<Check> checks;
+  checks.reserve(reading.pictures.size());
   for (const auto& [file, named] : reading.pictures) checks.push_back({file, named});
   parallel_for(checks.size(), 1, [&](std::size_t i) {
     try {

@@ -37,23 +37,23 @@ LocatedError ErrorCollector::locate(const YamlFault& error, std::string_view lin
           characters(line.substr(first, at - first)) + 1};
 }
 
-std::vector<LocatedError> ErrorCollector::located(std::vector<YamlFault> sorted,
+std::vector<LocatedError> ErrorCollector::located(std::vector<YamlFault> faults,
                                                   const char* noun) const {
   // Those of the file first, then those of the overrides in their order.
   const auto key = [](const YamlFault& e) {
     return std::tie(e.mark.override_index, e.mark.line, e.mark.column);
   };
-  std::stable_sort(sorted.begin(), sorted.end(),
+  std::stable_sort(faults.begin(), faults.end(),
                    [&](const YamlFault& a, const YamlFault& b) { return key(a) < key(b); });
   const auto same = [&](const YamlFault& a, const YamlFault& b) {
     return key(a) == key(b) && a.message == b.message;
   };
-  sorted.erase(std::unique(sorted.begin(), sorted.end(), same), sorted.end());
+  faults.erase(std::unique(faults.begin(), faults.end(), same), faults.end());
 
   std::vector<LocatedError> result;
   int line_number = 1;
   std::size_t start = 0;
-  for (const YamlFault& error : sorted) {
+  for (const YamlFault& error : faults) {
     if (result.size() == most_errors) break;
     while (line_number < error.mark.line && start < text_.size()) {
       const std::size_t end = text_.find('\n', start);
@@ -64,10 +64,10 @@ std::vector<LocatedError> ErrorCollector::located(std::vector<YamlFault> sorted,
     if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
     result.push_back(locate(error, line));
   }
-  if (sorted.size() > most_errors) {
+  if (faults.size() > most_errors) {
     LocatedError& rest = result.emplace_back();
     rest.where.file = file_;
-    rest.message = "and " + std::to_string(sorted.size() - most_errors) + " more " + noun;
+    rest.message = "and " + std::to_string(faults.size() - most_errors) + " more " + noun;
   }
   return result;
 }
