@@ -17,6 +17,7 @@
 #include "cli/inspect_command.hpp"
 #include "cli/render_command.hpp"
 #include "cli/study_command.hpp"
+#include "io/yaml/suggest.hpp"
 #include "scene/texture_store.hpp"
 
 namespace pah::cli {
@@ -206,6 +207,22 @@ void reject_render_options(const CLI::App& app, const CLI::App& subcommand) {
           fmt::format("{} cannot be used with {}", option->get_name(), subcommand.get_name()));
 }
 
+// What an argument that there is none of is meant to be.
+std::string usage_hint(const CLI::App& app, int argc, char** argv) {
+  std::vector<std::string> options;
+  for (const CLI::Option* option : app.get_options())
+    for (const std::string& name : option->get_lnames()) options.push_back("--" + name);
+  for (int i = 1; i < argc; ++i) {
+    const std::string_view word =
+        std::string_view(argv[i]).substr(0, std::string_view(argv[i]).find('='));
+    if (word == "--samples") return "; did you mean '--spp'?";
+    if (word == "render") return "; there is no command 'render': pahrender SCENE -o OUT";
+    const bool known = std::find(options.begin(), options.end(), word) != options.end();
+    if (word.starts_with("--") && !known) return suggestion(word, options);
+  }
+  return "";
+}
+
 ExitCode run(int argc, char** argv) {
   CLI::App app("Renders a scene file to a picture: pahrender SCENE -o OUT", "pahrender");
   app.footer(
@@ -226,7 +243,7 @@ ExitCode run(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() != 0) throw UsageError(error.what());
+    if (error.get_exit_code() != 0) throw UsageError(error.what() + usage_hint(app, argc, argv));
     app.exit(error);  // prints the help or the version
     return ExitCode::done;
   }

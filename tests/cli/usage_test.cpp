@@ -50,6 +50,9 @@ TEST_CASE("wrong usage exits with 2 and says what is wrong") {
   check_failure({"--nope"}, 2, "--nope");
   check_failure({"scene.yaml", "--nope"}, 2, "--nope");
   check_failure({"scene.yaml", "other.yaml"}, 2, "other.yaml");
+  check_failure({"scene.yaml", "--samples", "4"}, 2, "did you mean '--spp'?");
+  check_failure({"scene.yaml", "--seeds=4"}, 2, "did you mean '--seed'?");
+  check_failure({"render", "scene.yaml"}, 2, "no command 'render': pahrender SCENE -o OUT");
   check_failure({"scene.yaml", "-o"}, 2, "--output");
   check_failure({"scene.yaml", "-o", "out.xyz"}, 2, ".exr");
   check_failure({"scene.yaml", "-o", "out"}, 2, ".exr");

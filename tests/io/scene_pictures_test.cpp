@@ -34,7 +34,9 @@ TEST_CASE("what is no number in a picture is counted") {
   // RGBE, not packed: 2 x 1 pixels, the second as large as can be.
   write_text(folder / "a.hdr", "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 2\n" +
                                    std::string("\x80\x80\x80\x81\xFF\xFF\0\xFF", 8));
-  const auto scene = write_text(folder / "scene.yaml", "textures: {t: {type: image, file: a.hdr}}");
+  const auto scene = write_text(folder / "scene.yaml",
+                                "textures: {t: {type: image, file: a.hdr}}\n"
+                                "meshes: [{shape: box}]\nlights: [{type: point}]\n");
   const LoadedScene loaded = load_scene(scene);
   REQUIRE(loaded.warnings.size() == 1);
   CHECK(loaded.warnings[0].where.line == 1);

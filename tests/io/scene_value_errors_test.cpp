@@ -66,7 +66,8 @@ TEST_CASE("bad values") {
 TEST_CASE("bad materials and textures") {
   check_all({
       {"materials: {white: {reflectance: 0.5}}",
-       "scene.yaml:1:20: error: missing key 'type' in material 'white'"},
+       "scene.yaml:1:20: error: missing key 'type' in material 'white'; available options are: "
+       "diffuse, mirror, glass, metal, plastic, principled"},
       {"materials: {white: {type: difuse}}",
        "scene.yaml:1:27: error: unknown type 'difuse' of material 'white'; did you mean "
        "'diffuse'? Available options are: diffuse, mirror, glass, metal, plastic, principled"},
@@ -82,7 +83,7 @@ TEST_CASE("bad materials and textures") {
        "scene.yaml:1:47: error: material 'm' takes either 'preset' or 'eta' and 'k'"},
       {"materials: {m: {type: metal, preset: Pb}}",
        "scene.yaml:1:38: error: unknown preset 'Pb' of material 'm'; available "
-       "options are: Au, Ag, Cu, Al, Fe"},
+       "options are: Au, Ag, Cu, Al, Fe, gold, silver, copper, aluminum, iron"},
       {"materials: {m: {type: diffuse, reflectance: {texture: wood}}}",
        "scene.yaml:1:55: error: unknown texture 'wood' in 'texture' of 'reflectance' of material "
        "'m'; there are none"},
@@ -178,7 +179,7 @@ TEST_CASE("bad copies") {
        "scene.yaml:1:51: error: 'count' of repeat of mesh 1 must be whole numbers"},
       {"meshes: [{shape: box, scatter: {count: 3, over: lawn}}]",
        "scene.yaml:1:49: error: unknown mesh 'lawn' in 'over' of scatter of mesh 1; there are "
-       "none"},
+       "none: a mesh has to come before those that name it"},
       {"meshes: [{shape: box, scatter: {count: 3, scale: [2, 1]}}]",
        "scene.yaml:1:50: error: 'scale' of scatter of mesh 1 must rise: [smallest, largest]"},
       {"meshes: [{shape: sphere, segments: 1000, rings: 500, repeat: {type: line, count: 1000, "

@@ -8,7 +8,8 @@ namespace pah {
 
 // Per channel, at 650, 550 and 450 nm: one wavelength stands for each primary.
 struct MetalPreset {
-  const char* name;  // the element's symbol
+  const char* name;     // the element's symbol
+  const char* english;  // and its name
   Vec3 eta;
   Vec3 k;
 };

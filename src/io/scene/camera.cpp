@@ -34,7 +34,9 @@ void read_pose(MapReader& map, CameraType& camera) {
 }
 
 void read_lens(MapReader& map, PerspectiveCamera& camera) {
-  map.optional("fov", camera.fov, Range{0, 180, true, true});
+  constexpr double narrow = 3;  // of a telescope; or radians
+  if (map.optional("fov", camera.fov, Range{0, 180, true, true}) && camera.fov < narrow)
+    map.context().errors.warn(map.mark_of("fov"), "'fov' is in degrees, and this is very narrow");
   map.optional("aperture_radius", camera.aperture_radius, not_negative);
   double focus = 0;
   if (map.optional("focus_distance", focus, positive)) camera.focus_distance = focus;

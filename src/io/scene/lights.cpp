@@ -9,9 +9,12 @@ void read_radiometry(MapReader& map, std::string_view key, Vec3& value) {
     read_color(map.context(), *node, map.name_of(key), value);
 }
 
-void read_direction(MapReader& map, DVec3& direction) {
-  if (map.optional("direction", direction) && direction == DVec3(0))
+// False if there is none.
+bool read_direction(MapReader& map, DVec3& direction) {
+  const bool given = map.optional("direction", direction);
+  if (given && direction == DVec3(0))
     map.error("direction", map.name_of("direction") + " must not be zero");
+  return given;
 }
 
 PointLight read_point(MapReader& map) {
@@ -24,7 +27,8 @@ PointLight read_point(MapReader& map) {
 SpotLight read_spot(MapReader& map) {
   SpotLight light;
   map.optional("position", light.position);
-  read_direction(map, light.direction);
+  if (!read_direction(map, light.direction) && !map.recording())
+    map.context().errors.warn(map.mark(), map.title() + " has no direction: it shines down");
   read_radiometry(map, "intensity", light.intensity);
   map.optional("angle", light.angle, Range{0, 90, true, false});
   map.optional("blend", light.blend, unit_range);
@@ -33,7 +37,7 @@ SpotLight read_spot(MapReader& map) {
 
 DirectionalLight read_directional(MapReader& map) {
   DirectionalLight light;
-  read_direction(map, light.direction);
+  (void)read_direction(map, light.direction);
   read_radiometry(map, "irradiance", light.irradiance);
   map.optional("angle", light.angle, Range{0, 90, false, false});
   return light;

@@ -1,9 +1,12 @@
+#include <algorithm>
 #include <fstream>
 #include <pah/io/load_scene.hpp>
 #include <system_error>
 
+#include "io/extension.hpp"
 #include "io/scene/language.hpp"
 #include "io/scene/reading.hpp"
+#include "io/scene/synonyms.hpp"
 #include "io/yaml/suggest.hpp"
 
 namespace pah {
@@ -101,7 +104,10 @@ std::optional<std::uint32_t> NameTable::find(ReadContext& context, const YamlNod
   if (found != entries_.end()) return found->second.id;
   const std::string near = suggestion(text, names_);
   context.errors.add(node.mark, "unknown " + what_ + " '" + text + "' in " + name +
-                                    (names_.empty() ? "; there are none" : near));
+                                    (names_.empty() ? "; there are none" : near) +
+                                    (what_ == "mesh" && near.empty()
+                                         ? ": a mesh has to come before those that name it"
+                                         : ""));
   return {};
 }
 
@@ -126,13 +132,42 @@ Language describe_language() {
   return language;
 }
 
+namespace {
+
+// Files that are no scenes of ours, by their names.
+void refuse_other_formats(const fs::path& file) {
+  const std::string extension = lower_extension(file);
+  const auto& meshes = mesh_extensions();
+  std::string message;
+  if (std::find(meshes.begin(), meshes.end(), extension) != meshes.end())
+    message = "this is a mesh file; a scene that shows it says: meshes: [{file: " +
+              file.filename().string() + "}]";
+  else if (extension == ".pov" || extension == ".xml" || extension == ".pbrt")
+    message = "scenes of other programs cannot be read; a scene is a YAML file";
+  if (message.empty()) return;
+  std::vector<LocatedError> errors;
+  LocatedError& error = errors.emplace_back();
+  error.where.file = file.string();
+  error.message = message;
+  throw SceneError(std::move(errors));
+}
+
+// What is missing for a picture in which there is something to see.
+void warn_of_gaps(const Scene& scene, ErrorCollector& errors) {
+  if (scene.lights.empty()) errors.warn({}, "the scene has no light: the picture will be black");
+  if (scene.instances.empty()) errors.warn({}, "the scene has no mesh: there is nothing to light");
+}
+
+}  // namespace
+
 LoadedScene load_scene(const fs::path& file, const LoadOptions& options) {
+  refuse_other_formats(file);
   const std::string whole = read_text(file, options.limits.scene_bytes);
   std::string_view text = whole;
   if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
 
   ErrorCollector errors(file.string(), text, options.overrides);
-  ReadContext context{errors};
+  ReadContext context{errors, nullptr, synonym_hint};
   LoadedScene loaded;
   SceneFiles files(file.parent_path());
   files.hash().add_part(whole);
@@ -160,6 +195,7 @@ LoadedScene load_scene(const fs::path& file, const LoadOptions& options) {
     errors.add(error.mark(), error.what());
   }
   if (errors.size() > 0) throw SceneError(errors.located());
+  warn_of_gaps(loaded.scene, errors);
   loaded.hash = files.hash().hex();
   loaded.warnings = errors.located_warnings();
   return loaded;

@@ -24,6 +24,7 @@ void read_model(SceneReading& reading, MapReader& map, GlassMaterial& material) 
 void read_model(SceneReading& reading, MapReader& map, MetalMaterial& material) {
   EnumNames<const MetalPreset*> names;
   for (const MetalPreset& preset : metal_presets()) names.emplace_back(preset.name, &preset);
+  for (const MetalPreset& preset : metal_presets()) names.emplace_back(preset.english, &preset);
   const MetalPreset* preset = nullptr;
   map.option("preset", preset, names);
   if (preset != nullptr) {

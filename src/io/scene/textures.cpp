@@ -1,4 +1,6 @@
 // The textures section, and colors and scalars that a texture may stand for.
+#include <algorithm>
+
 #include "image/srgb.hpp"
 #include "io/scene/reading.hpp"
 
@@ -86,6 +88,22 @@ std::optional<Texture> read_image_texture(SceneReading& reading, MapReader& map)
 }
 
 // "#rrggbb" to a linear color; false if it is not one.
+// Whether it holds whole numbers up to 255 where 1 is the most.
+bool is_of_bytes(const YamlNode& node, const Range& range) {
+  if (range.max != 1) return false;
+  return std::all_of(node.items.begin(), node.items.end(), [](const YamlRef& item) {
+    return item->kind == Kind::scalar && !item->text.empty() && item->text.size() <= 3 &&
+           item->text.find_first_not_of("0123456789") == std::string::npos;
+  });
+}
+
+// A file's name alone is no picture.
+std::string picture_hint(const YamlNode& node) {
+  const bool is_file =
+      node.kind == Kind::scalar && std::filesystem::path(node.text).extension().string().size() > 3;
+  return is_file ? "; a picture is {image: " + node.text + "}" : "";
+}
+
 bool parse_hex_color(const std::string& text, Vec3& value) {
   if (text.size() != 7 || text[0] != '#' ||
       text.find_first_not_of("0123456789abcdefABCDEF", 1) != std::string::npos)
@@ -113,14 +131,20 @@ bool read_color(ReadContext& context, const YamlNode& node, const ValueName& nam
                 const Range& range) {
   if (node.kind == Kind::list) {
     DVec3 color{};
-    if (!read_value(context, node, name, color, range)) return false;
+    const std::size_t errors = context.errors.size();
+    if (!read_value(context, node, name, color, range)) {
+      if (context.errors.size() > errors && is_of_bytes(node, range))
+        context.errors.add(node.mark,
+                           name + " goes from 0 to 1: divide by 255, or write \"#rrggbb\"");
+      return false;
+    }
     value = Vec3(color);
     return true;
   }
   if (node.kind == Kind::scalar && parse_hex_color(node.text, value)) return true;
   if (node.kind != Kind::scalar || !is_number(node)) {
     context.errors.add(node.mark, name + " must be a color ([r, g, b], a number or \"#rrggbb\"), " +
-                                      "not " + describe(node));
+                                      "not " + describe(node) + picture_hint(node));
     return false;
   }
   float number = 0;

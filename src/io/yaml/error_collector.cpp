@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <tuple>
 
+#include "io/yaml/hints.hpp"
+
 namespace pah {
 namespace {
 
@@ -31,8 +33,9 @@ LocatedError ErrorCollector::locate(const YamlFault& error, std::string_view lin
   while (first > 0 && continues(line[first])) --first;
   std::size_t last = std::min(line.size(), first + longest_excerpt);
   while (last < line.size() && continues(line[last])) ++last;
+  const bool is_missing = error.message.ends_with("not nothing");
   return {{file_, mark.line, characters(line.substr(0, at)) + 1},
-          error.message,
+          error.message + (is_missing ? comment_hint(line) : ""),
           std::string(line.substr(first, last - first)),
           characters(line.substr(first, at - first)) + 1};
 }

@@ -6,10 +6,21 @@
 #include <limits>
 #include <sstream>
 
+#include "io/yaml/hints.hpp"
 #include "io/yaml/suggest.hpp"
 
 namespace pah {
 namespace {
+
+// A key that is almost the one that is missing, or what its value may be.
+std::string missing_hint(const YamlNode* node, std::string_view key,
+                         const std::vector<std::string>& options) {
+  if (node != nullptr)
+    for (const YamlEntry& entry : node->entries)
+      if (edit_distance(entry.key, key) == 1)
+        return "; is '" + entry.key + "' meant to be '" + std::string(key) + "'?";
+  return suggestion_and_options("", options);
+}
 
 using Kind = YamlNode::Kind;
 
@@ -231,7 +242,8 @@ std::size_t read_option(ReadContext& context, const YamlNode& node, const ValueN
 
 bool is_map(ReadContext& context, const YamlNode* node, const std::string& title) {
   if (node == nullptr || node->kind == Kind::map) return true;
-  context.errors.add(node->mark, title + " must be a map, not " + describe(*node));
+  context.errors.add(node->mark, title + " must be a map, not " + describe(*node) +
+                                     (node->quoted ? "" : colon_hint(node->text)));
   return false;
 }
 
@@ -256,16 +268,20 @@ const YamlNode* MapReader::find(std::string_view key, bool is_required,
   const YamlEntry* entry = node_ == nullptr ? nullptr : node_->find(key);
   if (entry != nullptr) return entry->value.get();
   if (is_required)
-    context_.errors.add(mark(), "missing key '" + std::string(key) + "' in " + title_);
+    context_.errors.add(mark(), "missing key '" + std::string(key) + "' in " + title_ +
+                                    missing_hint(node_, key, options));
   return nullptr;
 }
 
 void MapReader::finish() const {
   if (node_ == nullptr || !keys_known_) return;
-  for (const YamlEntry& entry : node_->entries)
-    if (std::find(known_.begin(), known_.end(), entry.key) == known_.end())
-      context_.errors.add(entry.mark, "unknown key '" + entry.key + "' in " + title_ +
-                                          suggestion_or_keys(entry.key, known_));
+  for (const YamlEntry& entry : node_->entries) {
+    if (std::find(known_.begin(), known_.end(), entry.key) != known_.end()) continue;
+    std::string hint = context_.hint == nullptr ? "" : context_.hint(entry.key, known_);
+    if (hint.empty()) hint = colon_hint(entry.key);
+    if (hint.empty()) hint = suggestion_or_keys(entry.key, known_);
+    context_.errors.add(entry.mark, "unknown key '" + entry.key + "' in " + title_ + hint);
+  }
 }
 
 }  // namespace pah

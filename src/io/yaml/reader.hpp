@@ -29,6 +29,8 @@ using Language = std::map<std::string, std::map<std::string, KeyDescription>>;
 struct ReadContext {
   ErrorCollector& errors;
   Language* language = nullptr;  // if set: nothing is read, every kind is described
+  // For an unknown key, a hint for its message by the keys that there are; may be empty.
+  std::string (*hint)(std::string_view key, const std::vector<std::string>& known) = nullptr;
 };
 
 // The numbers that a value may be.

@@ -11,6 +11,8 @@
 #include <sstream>
 #include <unordered_map>
 
+#include "io/yaml/hints.hpp"
+
 namespace pah {
 namespace {
 
@@ -211,6 +213,8 @@ void check_text(std::string_view text, int override_index) {
   constexpr int max_brackets = 4096;
   Mark mark{override_index, 1, 1};
   int brackets = 0;
+  if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF"))
+    throw YamlError(mark, "this is UTF-16: save the text as UTF-8");
   for (const char c : text) {
     const auto byte = static_cast<unsigned char>(c);
     if ((byte < 0x20 && c != '\t' && c != '\n' && c != '\r') || byte == 0x7F) {
@@ -292,7 +296,9 @@ YamlRef parse_yaml(std::string_view text, const YamlLimits& limits, std::vector<
     while (parser.HandleNextDocument(builder)) {
     }
   } catch (const YAML::Exception& error) {
-    throw syntax_error(error, text, override_index);
+    const YamlError found = syntax_error(error, text, override_index);
+    const YamlFault likely = likely_fault(text, {found.mark(), found.what()});
+    throw YamlError(likely.mark, likely.message);
   }
   YamlRef root = builder.take_root();
   if (root == nullptr) root = std::make_shared<YamlNode>();
