@@ -10,12 +10,17 @@
 
 namespace pah::cli {
 
+void say(const std::string& text) noexcept {
+  std::fwrite(text.data(), 1, text.size(), stderr);
+  std::fflush(stderr);
+}
+
 void print_warnings(const std::vector<LocatedError>& warnings) {
-  for (const LocatedError& warning : warnings) fmt::print(stderr, "{}\n", format_warning(warning));
+  for (const LocatedError& warning : warnings) say(format_warning(warning) + "\n");
 }
 
 void print_warnings(const std::vector<std::string>& warnings) {
-  for (const std::string& warning : warnings) fmt::print(stderr, "warning: {}\n", warning);
+  for (const std::string& warning : warnings) say("warning: " + warning + "\n");
 }
 
 std::string format_duration(double seconds) {
@@ -58,13 +63,9 @@ void ProgressBar::show(const Progress& progress) {
                   format_duration(progress.seconds), left, progress.samples_finished, samples_,
                   format_ray_rate(progress.rays, progress.seconds));
   line.resize(std::min(line.size(), terminal_width() - 1));
-  fmt::print(stderr, "\r{}\x1b[K", line);
-  std::fflush(stderr);
+  say("\r" + line + "\x1b[K");
 }
 
-ProgressBar::~ProgressBar() {
-  std::fputs("\r\x1b[K", stderr);
-  std::fflush(stderr);
-}
+ProgressBar::~ProgressBar() { say("\r\x1b[K"); }
 
 }  // namespace pah::cli

@@ -1,4 +1,4 @@
-// What the program says on stderr while it works.
+// What the program says on stderr.
 #pragma once
 
 #include <cstdint>
@@ -8,6 +8,9 @@
 #include <vector>
 
 namespace pah::cli {
+
+// To stderr, at once; one that is closed or full is nobody's business.
+void say(const std::string& text) noexcept;
 
 void print_warnings(const std::vector<LocatedError>& warnings);
 void print_warnings(const std::vector<std::string>& warnings);

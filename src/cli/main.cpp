@@ -1,4 +1,5 @@
 // The program: what the command line says, and how it ends.
+#include <fcntl.h>
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -13,6 +14,7 @@
 #include <pah/render/acceleration.hpp>
 
 #include "cli/compare_command.hpp"
+#include "cli/console.hpp"
 #include "cli/exit_code.hpp"
 #include "cli/inspect_command.hpp"
 #include "cli/render_command.hpp"
@@ -101,7 +103,7 @@ void add_render_options(CLI::App& app, RenderArguments& arguments) {
       ->check(CLI::NonNegativeNumber.description(""))
       ->type_name("N");
   app.add_option("--time-limit", arguments.time_limit,
-                 "Stop after so many seconds, with the samples that\nare finished")
+                 "Stop after so many seconds in all, with the samples\nthat are finished")
       ->check(finite_number(0))
       ->type_name("SECONDS");
   app.add_option("--exposure", arguments.exposure, "In stops; for .png and .jpg")
@@ -263,32 +265,40 @@ ExitCode run(int argc, char** argv) {
   return run_render(render_arguments);
 }
 
+// The next file that is opened takes the place of a stream that is closed, and would be written to.
+void hold_standard_streams() {
+  for (int stream = 0; stream < 3; ++stream)
+    if (::fcntl(stream, F_GETFD) == -1) (void)::open("/dev/null", O_RDWR);
+}
+
 }  // namespace
 }  // namespace pah::cli
 
 int main(int argc, char** argv) {
   using pah::cli::ExitCode;
   const auto end = [](ExitCode code) { return static_cast<int>(code); };
+  pah::cli::hold_standard_streams();
   try {
     return end(pah::cli::run(argc, argv));
   } catch (const pah::cli::UsageError& error) {
-    fmt::print(stderr, "pahrender: {}\nRun pahrender --help for what there is.\n", error.what());
+    pah::cli::say(
+        fmt::format("pahrender: {}\nRun pahrender --help for what there is.\n", error.what()));
     return end(ExitCode::wrong_usage);
   } catch (const pah::SceneError& errors) {
     for (const pah::LocatedError& error : errors.errors())
-      fmt::print(stderr, "{}\n", pah::format_error(error));
+      pah::cli::say(fmt::format("{}\n", pah::format_error(error)));
     return end(ExitCode::scene_error);
   } catch (const pah::TextureError& error) {  // found by loading, unless the file has changed since
-    fmt::print(stderr, "pahrender: {}\n", error.what());
+    pah::cli::say(fmt::format("pahrender: {}\n", error.what()));
     return end(ExitCode::scene_error);
   } catch (const pah::FileError& error) {
-    fmt::print(stderr, "pahrender: {}\n", error.what());
+    pah::cli::say(fmt::format("pahrender: {}\n", error.what()));
     return end(ExitCode::file_error);
   } catch (const std::bad_alloc&) {
-    std::fputs("pahrender: out of memory\n", stderr);
+    pah::cli::say("pahrender: out of memory\n");
     return end(ExitCode::failed);
   } catch (const std::exception& error) {
-    fmt::print(stderr, "pahrender: {}\n", error.what());
+    pah::cli::say(fmt::format("pahrender: {}\n", error.what()));
     return end(ExitCode::failed);
   }
 }

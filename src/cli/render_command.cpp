@@ -64,8 +64,8 @@ void check_format(const RenderArguments& arguments, const fs::path& output) {
 void warn_of_layers(const FilmSettings& film, const fs::path& output) {
   if ((film.albedo || film.normal || film.depth || film.variance) &&
       lower_extension(output) != ".exr")
-    fmt::print(stderr, "warning: {} has no room for the 'channels' of film; .exr files have\n",
-               output.string());
+    say(fmt::format("warning: {} has no room for the 'channels' of film; .exr files have\n",
+                    output.string()));
 }
 
 void apply(const RenderArguments& arguments, Scene& scene) {
@@ -96,11 +96,21 @@ bool any_samples(const Film& film) {
   return std::ranges::any_of(film.pixels, [](const FilmPixel& pixel) { return pixel.samples > 0; });
 }
 
+// By whatever names.
+bool is_same_file(const fs::path& a, const fs::path& b) {
+  std::error_code error;
+  return fs::weakly_canonical(fs::absolute(a), error) ==
+         fs::weakly_canonical(fs::absolute(b), error);
+}
+
+// `spent` seconds of the time limit are gone.
 RenderResult render_with_progress(const World& world, const Accelerator& accelerator,
-                                  const Scene& scene, const RenderArguments& arguments) {
+                                  const Scene& scene, const RenderArguments& arguments,
+                                  double spent) {
   RenderOptions options;
   options.threads = arguments.threads;
-  options.time_limit = arguments.time_limit;
+  // 0 would be none.
+  if (arguments.time_limit > 0) options.time_limit = std::max(arguments.time_limit - spent, 1e-3);
   options.count_traversal = !arguments.stats.empty();
   options.stop = &stop_requested();
   if (arguments.quiet || !ProgressBar::possible())
@@ -133,12 +143,12 @@ void write_picture(const fs::path& file, const RenderResult& result, const Scene
 
 void print_summary(const fs::path& file, const RenderResult& result, int samples_wanted) {
   if (result.counts.nan_samples > 0)
-    fmt::print(stderr, "warning: {} samples were not finite or negative, and left out\n",
-               result.counts.nan_samples);
-  fmt::print(stderr, "wrote {}: {}, {}{} samples, {}\n", file.string(),
-             format_duration(result.seconds), result.samples,
-             result.complete ? "" : fmt::format(" of {}", samples_wanted),
-             format_ray_rate(total_rays(result.counts), result.seconds));
+    say(fmt::format("warning: {} samples were not finite or negative, and left out\n",
+                    result.counts.nan_samples));
+  say(fmt::format("wrote {}: {}, {}{} samples, {}\n", file.string(),
+                  format_duration(result.seconds), result.samples,
+                  result.complete ? "" : fmt::format(" of {}", samples_wanted),
+                  format_ray_rate(total_rays(result.counts), result.seconds)));
 }
 
 }  // namespace
@@ -148,6 +158,8 @@ ExitCode run_render(const RenderArguments& arguments) {
   handle_interrupts();
   const fs::path output = output_of(arguments);
   check_format(arguments, output);
+  if (!arguments.stats.empty() && is_same_file(output, arguments.stats))
+    throw UsageError("--output and --stats name the same file");
   if (!arguments.check) {
     check_writable(output);
     if (!arguments.stats.empty()) check_can_create(arguments.stats);
@@ -162,7 +174,7 @@ ExitCode run_render(const RenderArguments& arguments) {
   if (!arguments.quiet) print_warnings(loaded.warnings);
   apply(arguments, scene);
   if (arguments.check) {
-    if (!arguments.quiet) fmt::print(stderr, "{}: no errors\n", arguments.scene.string());
+    if (!arguments.quiet) say(fmt::format("{}: no errors\n", arguments.scene.string()));
     return ExitCode::done;
   }
   if (!arguments.quiet) warn_of_layers(scene.film, output);
@@ -181,10 +193,15 @@ ExitCode run_render(const RenderArguments& arguments) {
 
   const SavingOnInterrupt saving;
   const RenderResult result =
-      render_with_progress(world, *acceleration.accelerator, scene, arguments);
+      render_with_progress(world, *acceleration.accelerator, scene, arguments, total.seconds());
   const bool interrupted = stop_requested() && !result.complete;
-  if (interrupted && !any_samples(result.film)) {
-    fmt::print(stderr, "interrupted before there was anything to save\n");
+  // Less than one sample for every pixel is better than nothing, but not than what there was.
+  std::error_code ignored;
+  const bool replaces = fs::is_regular_file(output, ignored);
+  if (interrupted && (replaces ? result.samples == 0 : !any_samples(result.film))) {
+    say(replaces ? fmt::format("interrupted before every pixel had a sample; {} is as it was\n",
+                               output.string())
+                 : "interrupted before there was anything to save\n");
     return ExitCode::interrupted;
   }
   write_picture(output, result, scene, loaded.hash, arguments);

@@ -88,8 +88,7 @@ std::vector<StudyMesh> load_all(const std::vector<fs::path>& files) {
 }
 
 void show_progress(double done, const std::string& what) {
-  fmt::print(stderr, "\r{:3.0f} %  {}\x1b[K", 100 * done, what);
-  std::fflush(stderr);
+  say(fmt::format("\r{:3.0f} %  {}\x1b[K", 100 * done, what));
 }
 
 }  // namespace
@@ -114,7 +113,7 @@ ExitCode run_study(const StudyArguments& arguments) {
   const StudyResults results =
       pah::run_study(load_all(arguments.files), config,
                      terminal ? show_progress : std::function<void(double, const std::string&)>{});
-  if (terminal) fmt::print(stderr, "\r\x1b[K");
+  if (terminal) say("\r\x1b[K");
 
   write_text_file(folder / "prediction.csv", prediction_csv(results));
   write_text_file(folder / "cost.csv", cost_csv(results));
@@ -122,8 +121,8 @@ ExitCode run_study(const StudyArguments& arguments) {
   write_text_file(folder / "sweep.csv", sweep_csv(results));
   const bool plotted = write_study_plots(results, folder);
   write_text_file(folder / "report.md", study_markdown(results, plotted));
-  fmt::print(stderr, "wrote {}{}\n", (folder / "report.md").string(),
-             plotted ? "" : "; plots skipped: gnuplot was not found or failed");
+  say(fmt::format("wrote {}{}\n", (folder / "report.md").string(),
+                  plotted ? "" : "; plots skipped: gnuplot was not found or failed"));
   return ExitCode::done;
 }
 

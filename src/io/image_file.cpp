@@ -214,7 +214,9 @@ const std::vector<std::string>& image_extensions() {
 }
 
 void check_writable(const fs::path& file) {
-  (void)format_of(file);
+  // Its writer goes back and forth, which neither a device nor a pipe does.
+  if (format_of(file).encoding == Encoding::tiff && is_device(file))
+    fail_to_write(file, "a TIFF file cannot go to a device");
   check_can_create(file);
 }
 

@@ -26,16 +26,6 @@ fs::path resolved(const fs::path& file) {
   return error ? absolute : target;
 }
 
-// What must be written to as it is, rather than be replaced.
-bool is_device(const fs::path& file) {
-  // These may lead to files, but to files that somebody has open.
-  for (const char* open_file : {"/dev/std", "/dev/fd/", "/proc/"})
-    if (file.string().starts_with(open_file)) return true;
-  std::error_code error;
-  const fs::file_status status = fs::status(file, error);
-  return fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status);
-}
-
 void write_all(const fs::path& file, const fs::path& named, std::string_view text,
                std::ios::openmode mode = std::ios::trunc) {
   errno = 0;
@@ -52,6 +42,15 @@ void write_all(const fs::path& file, const fs::path& named, std::string_view tex
 }
 
 }  // namespace
+
+bool is_device(const fs::path& file) {
+  // These may lead to files, but to files that somebody has open.
+  for (const char* open_file : {"/dev/std", "/dev/fd/", "/proc/"})
+    if (file.string().starts_with(open_file)) return true;
+  std::error_code error;
+  const fs::file_status status = fs::status(file, error);
+  return fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status);
+}
 
 fs::path temporary_beside(const fs::path& file) {
   const fs::path target = resolved(file);

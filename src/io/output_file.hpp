@@ -10,6 +10,9 @@ namespace pah {
 // Throws FileError if `file` cannot be created or replaced. Leaves no trace.
 void check_can_create(const std::filesystem::path& file);
 
+// Whether the file is a device or a pipe, to be written to as it is rather than replaced.
+[[nodiscard]] bool is_device(const std::filesystem::path& file);
+
 // A name in the same folder, of the same extension, that only this process uses.
 [[nodiscard]] std::filesystem::path temporary_beside(const std::filesystem::path& file);
 

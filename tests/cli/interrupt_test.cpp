@@ -18,7 +18,7 @@ const Words endless{"scene.yaml", "-o", "out.exr", "--spp", "1000000000"};
 }  // namespace
 
 TEST_CASE("a signal saves what there is and exits with 130") {
-  for (const int number : {SIGINT, SIGTERM}) {
+  for (const int number : {SIGINT, SIGTERM, SIGHUP}) {
     const CurrentTemporaryFolder folder;
     write_file("scene.yaml", small_scene);
     Program program(endless, ErrorStream::terminal);
@@ -61,4 +61,33 @@ TEST_CASE("the progress bar shows on a terminal only, and not if asked to be qui
   Words quietly = arguments;
   quietly.emplace_back("--quiet");
   CHECK(run(quietly, ErrorStream::terminal).err.empty());
+}
+
+TEST_CASE("an interrupt before every pixel has a sample leaves an old picture as it was") {
+  const CurrentTemporaryFolder folder;
+  // A pass takes long: the picture is large and full of glass.
+  write_file("scene.yaml",
+             "film: {width: 2048, height: 2048}\nrender: {samples: 1000, max_depth: 64}\n"
+             "materials: {g: {type: glass}}\n"
+             "meshes: [{shape: sphere, material: g, transform: {scale: 5}}]\n"
+             "lights: [{type: environment}]\n");
+  write_file("out.exr", "an old picture");
+  Program program({"scene.yaml", "-o", "out.exr", "--threads", "1"}, ErrorStream::terminal);
+  REQUIRE(program.wait_for_error_text("samples"));
+  program.signal(SIGINT);
+  const Outcome outcome = program.wait();
+  INFO(outcome.err);
+  CHECK(outcome.exit_code == 130);
+  CHECK(outcome.err.find("out.exr is as it was") != std::string::npos);
+  CHECK(read_file("out.exr") == "an old picture");
+}
+
+TEST_CASE("the time limit counts loading and building too") {
+  const CurrentTemporaryFolder folder;
+  write_file("scene.yaml", small_scene);
+  const Outcome outcome =
+      run({"scene.yaml", "-o", "a.png", "--time-limit", "0.000001", "--spp", "100000000"});
+  INFO(outcome.err);
+  CHECK(outcome.exit_code == 0);
+  CHECK(outcome.err.find(", 1 of 100000000 samples") != std::string::npos);
 }

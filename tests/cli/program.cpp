@@ -68,6 +68,10 @@ Program::Program(const std::vector<std::string>& arguments, ErrorStream stream) 
       error = ::open(::ptsname(terminal_), O_RDWR | O_NOCTTY);
   } else {
     error = ::open("stderr", O_WRONLY | O_CREAT | O_TRUNC, 0600);
+    if (stream == ErrorStream::full) {
+      ::close(error);
+      error = ::open("/dev/full", O_WRONLY);
+    }
   }
   if (in < 0 || out < 0 || error < 0) throw std::runtime_error("cannot open streams");
 
@@ -78,6 +82,7 @@ Program::Program(const std::vector<std::string>& arguments, ErrorStream stream) 
     ::dup2(error, STDERR_FILENO);
     for (const int file : {in, out, error, terminal_})
       if (file > STDERR_FILENO) ::close(file);
+    if (stream == ErrorStream::closed) ::close(STDERR_FILENO);
     ::execv(pointers[0], pointers.data());
     ::_exit(127);
   }

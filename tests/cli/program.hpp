@@ -19,7 +19,7 @@ struct Outcome {
   std::string out, err;
 };
 
-enum class ErrorStream { file, terminal };
+enum class ErrorStream { file, terminal, full, closed };
 
 // A running program. Its streams go to files in the current folder.
 class Program {

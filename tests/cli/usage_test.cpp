@@ -1,5 +1,6 @@
 // What the program says and how it ends where it does not get to render.
 #include <filesystem>
+#include <pah/io/image_file.hpp>
 
 #include "catch.hpp"
 #include "program.hpp"
@@ -149,4 +150,27 @@ TEST_CASE("switch --check loads and writes nothing") {
   const Outcome quiet = run({"scene.yaml", "--check", "--quiet"});
   CHECK(quiet.exit_code == 0);
   CHECK(quiet.err.empty());
+}
+
+TEST_CASE("a stderr that is closed or full changes no exit code and no picture") {
+  const CurrentTemporaryFolder folder;
+  write_file("scene.yaml", small_scene);
+  write_file("bad.yaml", "film: [");
+  REQUIRE(run({"scene.yaml", "-o", "a.png"}).exit_code == 0);
+  for (const ErrorStream stream : {ErrorStream::closed, ErrorStream::full}) {
+    CHECK(run({"scene.yaml", "-o", "b.png"}, stream).exit_code == 0);
+    CHECK(pah::read_image("a.png").pixels == pah::read_image("b.png").pixels);
+    CHECK(run({"scene.yaml", "--nope"}, stream).exit_code == 2);
+    CHECK(run({"bad.yaml"}, stream).exit_code == 3);
+    CHECK(run({"none.yaml"}, stream).exit_code == 4);
+  }
+}
+
+TEST_CASE("outputs that would harm one another or a device are refused") {
+  const CurrentTemporaryFolder folder;
+  write_file("scene.yaml", small_scene);
+  check_failure({"scene.yaml", "-o", "a.png", "--stats", "./a.png"}, 2, "name the same file");
+  std::filesystem::create_symlink("/dev/null", "null.tif");
+  check_failure({"scene.yaml", "-o", "null.tif"}, 4, "a TIFF file cannot go to a device");
+  CHECK(std::filesystem::is_symlink("null.tif"));
 }
