@@ -5,9 +5,11 @@
 
 namespace pah::cli {
 
-// From here on these signals end the program at once with exit code 130, unless they are ignored. A
-// pipe that is closed or a file that is too large does not end it.
+// From here on they end the program at once with exit code 130; SIGHUP only if it is not ignored.
 void handle_interrupts();
+
+// From here on a pipe that is closed and a file that is too large make writing fail, no more.
+void outlive_failed_writes();
 
 // While one lives, the first signal only sets stop_requested(): there is something to save. The
 // second still ends the program at once.

@@ -17,6 +17,7 @@
 #include "cli/console.hpp"
 #include "cli/exit_code.hpp"
 #include "cli/inspect_command.hpp"
+#include "cli/interrupt.hpp"
 #include "cli/render_command.hpp"
 #include "cli/study_command.hpp"
 #include "io/yaml/suggest.hpp"
@@ -268,7 +269,7 @@ ExitCode run(int argc, char** argv) {
 // The next file that is opened takes the place of a stream that is closed, and would be written to.
 void hold_standard_streams() {
   for (int stream = 0; stream < 3; ++stream)
-    if (::fcntl(stream, F_GETFD) == -1) (void)::open("/dev/null", O_RDWR);
+    if (::fcntl(stream, F_GETFD) == -1) (void)::open("/dev/null", O_RDONLY);
 }
 
 }  // namespace
@@ -278,6 +279,7 @@ int main(int argc, char** argv) {
   using pah::cli::ExitCode;
   const auto end = [](ExitCode code) { return static_cast<int>(code); };
   pah::cli::hold_standard_streams();
+  pah::cli::outlive_failed_writes();
   try {
     return end(pah::cli::run(argc, argv));
   } catch (const pah::cli::UsageError& error) {

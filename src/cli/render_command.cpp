@@ -16,6 +16,7 @@
 #include "cli/console.hpp"
 #include "cli/film_size.hpp"
 #include "cli/interrupt.hpp"
+#include "cli/memory.hpp"
 #include "io/extension.hpp"
 #include "io/output_file.hpp"
 #include "report/stats.hpp"
@@ -178,6 +179,7 @@ ExitCode run_render(const RenderArguments& arguments) {
     return ExitCode::done;
   }
   if (!arguments.quiet) warn_of_layers(scene.film, output);
+  check_memory_for(scene.film);
   const World world = make_world(scene);
   if (!arguments.quiet) print_warnings(world.warnings);
   // From here on everything comes from the world.

@@ -72,7 +72,10 @@ void check_can_create(const fs::path& file) {
 
 void put_in_place(const fs::path& temporary, const fs::path& file) {
   std::error_code error;
-  fs::rename(temporary, resolved(file), error);
+  if (is_device(file))
+    error = std::make_error_code(std::errc::not_supported);
+  else
+    fs::rename(temporary, resolved(file), error);
   if (!error) return;
   std::error_code ignored;
   fs::remove(temporary, ignored);

@@ -88,8 +88,9 @@ RenderResult render(const World& world, const Accelerator& accelerator, const Fi
                            static_cast<std::uint64_t>(count);
       reporter.tile_done(samples, tile.rays, result.samples);
     };
-    session.render_pass(all, result.samples, count, {options.stop, tile_done});
-    if (stopped()) break;
+    const auto finished =
+        session.render_pass(all, result.samples, count, {options.stop, tile_done});
+    if (finished.size() < all.size()) break;
     result.samples += count;
     reporter.pass_done(result.samples);
   }

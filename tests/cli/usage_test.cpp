@@ -1,4 +1,6 @@
 // What the program says and how it ends where it does not get to render.
+#include <sys/resource.h>
+
 #include <filesystem>
 #include <pah/io/image_file.hpp>
 
@@ -174,3 +176,27 @@ TEST_CASE("outputs that would harm one another or a device are refused") {
   check_failure({"scene.yaml", "-o", "null.tif"}, 4, "a TIFF file cannot go to a device");
   CHECK(std::filesystem::is_symlink("null.tif"));
 }
+
+// Sanitizers take terabytes of addresses.
+#if defined(__has_feature)
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
+#define PAH_UNLIMITED_ADDRESSES
+#endif
+#endif
+#ifndef PAH_UNLIMITED_ADDRESSES
+TEST_CASE("a film that memory has no room for is refused in plain words") {
+  const CurrentTemporaryFolder folder;
+  write_file("scene.yaml", small_scene);
+  rlimit before{};
+  REQUIRE(::getrlimit(RLIMIT_AS, &before) == 0);
+  rlimit less = before;
+  less.rlim_cur = 4'000'000'000;
+  REQUIRE(::setrlimit(RLIMIT_AS, &less) == 0);
+  const Outcome outcome =
+      run({"scene.yaml", "-o", "a.png", "--width", "16384", "--height", "8192"});
+  REQUIRE(::setrlimit(RLIMIT_AS, &before) == 0);
+  INFO(outcome.err);
+  CHECK(outcome.exit_code == 1);
+  CHECK(contains(outcome.err, "a film of 16384 x 8192 pixels takes 18.3 GB of memory, and "));
+}
+#endif
