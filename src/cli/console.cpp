@@ -15,14 +15,6 @@ void say(const std::string& text) noexcept {
   std::fflush(stderr);
 }
 
-void print_warnings(const std::vector<LocatedError>& warnings) {
-  for (const LocatedError& warning : warnings) say(format_warning(warning) + "\n");
-}
-
-void print_warnings(const std::vector<std::string>& warnings) {
-  for (const std::string& warning : warnings) say("warning: " + warning + "\n");
-}
-
 std::string format_duration(double seconds) {
   if (!(seconds >= 9.95)) return fmt::format("{:.1f} s", seconds);
   const auto whole = std::llround(std::min(seconds, 1e12));

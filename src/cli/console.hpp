@@ -2,18 +2,13 @@
 #pragma once
 
 #include <cstdint>
-#include <pah/io/errors.hpp>
 #include <pah/render/render.hpp>
 #include <string>
-#include <vector>
 
 namespace pah::cli {
 
 // To stderr, at once; one that is closed or full is nobody's business.
 void say(const std::string& text) noexcept;
-
-void print_warnings(const std::vector<LocatedError>& warnings);
-void print_warnings(const std::vector<std::string>& warnings);
 
 // "4.2 s", "3:07", "2:03:07".
 [[nodiscard]] std::string format_duration(double seconds);

@@ -13,6 +13,7 @@
 #include "cli/console.hpp"
 #include "cli/film_size.hpp"
 #include "cli/interrupt.hpp"
+#include "cli/warnings.hpp"
 #include "io/output_file.hpp"
 #include "report/box_gltf.hpp"
 #include "report/false_color.hpp"
@@ -83,11 +84,12 @@ ExitCode run_inspect(const InspectArguments& arguments) {
   handle_interrupts();
   check_outputs(arguments);
   LoadedScene loaded = load_scene(arguments.scene, {arguments.overrides, {}});
-  print_warnings(loaded.warnings);
+  Warnings warnings(false, false);
+  warnings.add(loaded.warnings);
   Scene& scene = loaded.scene;
   apply(arguments, scene.film);
   const World world = make_world(scene);
-  print_warnings(world.warnings);
+  warnings.add(world.warnings);
 
   const TimedBvh global = build_global(world.triangles());
   const BoxMeasure surface_area = each_box(SurfaceArea{});

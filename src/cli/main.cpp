@@ -129,6 +129,10 @@ void add_render_options(CLI::App& app, RenderArguments& arguments) {
       ->check(CLI::IsMember({8, 16}).description(""))
       ->type_name("N");
   app.add_flag("--quiet", arguments.quiet, "Say nothing but errors");
+  app.add_flag("--strict", arguments.strict,
+               "Take warnings for errors: with one that is known\n"
+               "before rendering there is no picture, and the program\n"
+               "ends with 3");
   app.add_flag("--check", arguments.check, "Only load the scene and report its errors");
 }
 

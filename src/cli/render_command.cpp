@@ -6,7 +6,9 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
+#include <pah/image/clipping.hpp>
 #include <pah/io/image_file.hpp>
 #include <pah/io/load_scene.hpp>
 #include <pah/render/acceleration.hpp>
@@ -17,8 +19,10 @@
 #include "cli/film_size.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/memory.hpp"
+#include "cli/warnings.hpp"
 #include "io/extension.hpp"
 #include "io/output_file.hpp"
+#include "report/area_warnings.hpp"
 #include "report/stats.hpp"
 
 namespace pah::cli {
@@ -62,11 +66,27 @@ void check_format(const RenderArguments& arguments, const fs::path& output) {
 }
 
 // A scene with layers may well be rendered to a PNG file, to look at.
-void warn_of_layers(const FilmSettings& film, const fs::path& output) {
+void warn_of_layers(const FilmSettings& film, const fs::path& output, Warnings& warnings) {
   if ((film.albedo || film.normal || film.depth || film.variance) &&
       lower_extension(output) != ".exr")
-    say(fmt::format("warning: {} has no room for the 'channels' of film; .exr files have\n",
-                    output.string()));
+    warnings.add(
+        fmt::format("{} has no room for the 'channels' of film; .exr files have", output.string()));
+}
+
+// What will look wrong for another reason than too few samples.
+void warn_of_faults(const RenderResult& result, double exposure, const fs::path& output,
+                    Warnings& warnings) {
+  if (result.counts.nan_samples > 0)
+    warnings.add(fmt::format("{} samples were not finite or negative, and left out",
+                             result.counts.nan_samples));
+  const std::string extension = lower_extension(output);
+  if (extension != ".png" && extension != ".jpg" && extension != ".jpeg") return;  // linear
+  const Clipping clipping = measure_clipping(radiance_of(result.film), exposure);
+  if (clipping.share > 0.05)
+    warnings.add(fmt::format(
+        "{:.0f} % of the pixels are too bright for {}; --exposure {:.1f} "
+        "would fit",
+        100 * clipping.share, output.string(), std::floor(10 * clipping.exposure) / 10));
 }
 
 void apply(const RenderArguments& arguments, Scene& scene) {
@@ -143,9 +163,6 @@ void write_picture(const fs::path& file, const RenderResult& result, const Scene
 }
 
 void print_summary(const fs::path& file, const RenderResult& result, int samples_wanted) {
-  if (result.counts.nan_samples > 0)
-    say(fmt::format("warning: {} samples were not finite or negative, and left out\n",
-                    result.counts.nan_samples));
   say(fmt::format("wrote {}: {}, {}{} samples, {}\n", file.string(),
                   format_duration(result.seconds), result.samples,
                   result.complete ? "" : fmt::format(" of {}", samples_wanted),
@@ -172,16 +189,19 @@ ExitCode run_render(const RenderArguments& arguments) {
                                         static_cast<std::size_t>(threads));
   LoadedScene loaded = load_scene(arguments.scene, {arguments.overrides, {}});
   Scene& scene = loaded.scene;
-  if (!arguments.quiet) print_warnings(loaded.warnings);
+  Warnings warnings(arguments.quiet, arguments.strict);
+  warnings.add(loaded.warnings);
   apply(arguments, scene);
   if (arguments.check) {
+    if (warnings.failed()) return ExitCode::scene_error;
     if (!arguments.quiet) say(fmt::format("{}: no errors\n", arguments.scene.string()));
     return ExitCode::done;
   }
-  if (!arguments.quiet) warn_of_layers(scene.film, output);
+  warn_of_layers(scene.film, output, warnings);
   check_memory_for(scene.film);
   const World world = make_world(scene);
-  if (!arguments.quiet) print_warnings(world.warnings);
+  warnings.add(world.warnings);
+  if (warnings.failed()) return ExitCode::scene_error;
   // From here on everything comes from the world.
   scene.meshes = {};
   scene.instances = {};
@@ -192,6 +212,8 @@ ExitCode run_render(const RenderArguments& arguments) {
   const Acceleration acceleration = tbb::task_arena(threads).execute(
       [&] { return make_acceleration(world, scene, arguments.accelerator); });
   report.seconds.build = building.seconds();
+  warnings.add(warnings_of(acceleration, world, scene.film));
+  if (warnings.failed()) return ExitCode::scene_error;
 
   const SavingOnInterrupt saving;
   const RenderResult result =
@@ -207,6 +229,7 @@ ExitCode run_render(const RenderArguments& arguments) {
     return ExitCode::interrupted;
   }
   write_picture(output, result, scene, loaded.hash, arguments);
+  warn_of_faults(result, scene.film.exposure, output, warnings);
   if (!arguments.quiet) print_summary(output, result, scene.render.samples);
 
   if (!arguments.stats.empty()) {
@@ -225,11 +248,13 @@ ExitCode run_render(const RenderArguments& arguments) {
     report.accelerator_bytes = acceleration.accelerator->memory();
     report.influence_areas = report_areas(acceleration);
     report.error = estimate_error(result.film);
+    report.warnings = warnings.count();
     report.seconds.render = result.seconds;
     report.seconds.total = total.seconds();
     write_text_file(arguments.stats, stats_json(report));
   }
-  return interrupted ? ExitCode::interrupted : ExitCode::done;
+  if (interrupted) return ExitCode::interrupted;
+  return warnings.failed() ? ExitCode::scene_error : ExitCode::done;
 }
 
 }  // namespace pah::cli

@@ -28,6 +28,7 @@ struct RenderArguments {
   bool half = false;                   // EXR files in 16-bit floats
   std::optional<int> png_bits;         // 8 or 16
   bool quiet = false;
+  bool strict = false;  // warnings are errors
   bool check = false;
 };
 

@@ -91,6 +91,7 @@ std::string stats_json(const RenderReport& report) {
         {"relmse", report.error.relmse},
         {"confidence95", JsonValue::array({report.error.low, report.error.high})}}},
       {"nan_samples", report.counts.nan_samples},
+      {"warnings", report.warnings},
   };
   return json.indented_text() + "\n";
 }

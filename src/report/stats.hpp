@@ -43,6 +43,7 @@ struct RenderReport {
   AcceleratorMemory accelerator_bytes;
   std::vector<AreaReport> influence_areas;
   ErrorEstimate error;
+  int warnings = 0;
 };
 
 // After a render that counted its traversal.

@@ -6,6 +6,7 @@
 
 #include "parallel/parallel_for.hpp"
 #include "scene/bounds.hpp"
+#include "scene/enclosure.hpp"
 #include "scene/origin.hpp"
 
 namespace pah {
@@ -195,6 +196,10 @@ std::vector<Bounds> boxes_of(const Scene& scene) {
   return boxes;
 }
 
+std::string title_of(const std::string& mesh) {
+  return mesh.empty() ? "a mesh" : "mesh '" + mesh + "'";
+}
+
 void warn_of_lost_shapes(const Scene& scene, const std::vector<Bounds>& boxes, World& world) {
   std::size_t lost = 0;
   std::size_t first = 0;
@@ -204,9 +209,16 @@ void warn_of_lost_shapes(const Scene& scene, const std::vector<Bounds>& boxes, W
   }
   if (lost == 0) return;
   const std::string& name = scene.meshes[scene.instances[first].mesh].name;
-  world.warnings.push_back((name.empty() ? "a mesh" : "mesh '" + name + "'") +
+  world.warnings.push_back(title_of(name) +
                            (lost > 1 ? " and " + std::to_string(lost - 1) + " more are" : " is") +
                            " too far from the rest of the scene for the size: the shape is lost");
+}
+
+void warn_of_dark_camera(const Scene& scene, const std::vector<Bounds>& boxes, World& world) {
+  if (const auto instance = dark_enclosure(scene, boxes))
+    world.warnings.push_back("the camera is inside " +
+                             title_of(scene.meshes[scene.instances[*instance].mesh].name) +
+                             ", which is closed: no light gets in");
 }
 
 void recenter(World& world) {
@@ -239,6 +251,7 @@ World make_world(const Scene& scene) {
   const std::vector<Bounds> boxes = boxes_of(scene);
   world.origin = choose_origin(scene.camera, boxes);
   warn_of_lost_shapes(scene, boxes, world);
+  warn_of_dark_camera(scene, boxes, world);
   recenter(world);
 
   std::vector<Fault> faults(scene.instances.size(), Fault::none);

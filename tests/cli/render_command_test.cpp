@@ -140,7 +140,7 @@ TEST_CASE("switch --stats has every key of the contract, of the right type") {
        {"/width", "/height", "/samples", "/threads", "/seed", "/triangles", "/rays/camera",
         "/rays/shadow", "/rays/bounce", "/memory_bytes/scene", "/memory_bytes/global_bvh",
         "/memory_bytes/local_bvhs", "/memory_bytes/top_level", "/memory_bytes/film",
-        "/peak_memory_bytes", "/nan_samples"}) {
+        "/peak_memory_bytes", "/nan_samples", "/warnings"}) {
     CAPTURE(key);
     CHECK(at(key).is_number_unsigned());
   }

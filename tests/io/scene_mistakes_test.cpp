@@ -112,4 +112,7 @@ TEST_CASE("scenes that may not be meant so get warnings") {
         "3:15: 'fov' is in degrees, and this is very narrow\n");
   CHECK(warnings(box + "lights: [{type: spot}]") ==
         "2:10: light 1 has no direction: it shines down\n");
+  CHECK(warnings("meshes: [{shape: box, scatter: {count: 50, min_distance: 3, size: [4, 4]}}]\n" +
+                 bulb) == "1:40: only 3 of 50 copies find room at this 'min_distance'\n");
+  CHECK(warnings("meshes: [{shape: box, scatter: {count: 5, size: [4, 4]}}]\n" + bulb) == "");
 }

@@ -179,6 +179,42 @@ TEST_CASE("faults are named") {
   CHECK(message(scene_of(BoxShape{}, scaling(DVec3{1e-40}))).empty());
 }
 
+TEST_CASE("a camera that is shut in without light is warned of") {
+  const auto warnings = [](const Scene& scene) { return make_world(scene).warnings; };
+  Scene scene = scene_of(BoxShape{}, translation({3, 0, 0}));
+  PerspectiveCamera camera;
+  camera.position = {3.2, 0.1, -0.3};
+  scene.camera = camera;
+  CHECK(warnings(scene) == std::vector<std::string>{
+                               "the camera is inside mesh 'thing', which is closed: no light gets "
+                               "in"});
+  SECTION("unless it is outside") {
+    camera.position.x = 3.6;
+    scene.camera = camera;
+    CHECK(warnings(scene).empty());
+  }
+  SECTION("unless there is a lamp with it") {
+    scene.lights.push_back({"bulb", PointLight{{3, 0.4, 0}}});
+    CHECK(warnings(scene).empty());
+  }
+  SECTION("a lamp outside does not help") {
+    scene.lights.push_back({"bulb", PointLight{{3, 0.6, 0}}});
+    CHECK(warnings(scene).size() == 1);
+  }
+  SECTION("unless light comes through") {
+    scene.materials[0].model = GlassMaterial{};
+    CHECK(warnings(scene).empty());
+  }
+  SECTION("unless a side is open") {
+    scene.meshes[0].triangles.pop_back();
+    CHECK(warnings(scene).empty());
+  }
+  SECTION("mirrored, too") {
+    scene.instances[0].world_from_object[0] *= -1;
+    CHECK(warnings(scene).size() == 1);
+  }
+}
+
 TEST_CASE("one distant object costs the others neither digits nor their place") {
   Scene scene;
   PerspectiveCamera camera;

@@ -1,4 +1,6 @@
 // Where the copies of a mesh stand.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <pah/scene/placement.hpp>
 
@@ -126,6 +128,10 @@ Transforms read_scatter(SceneReading& reading, const YamlNode* node, const std::
     } else if (!map.recording() && valid) {
       copies = scatter(size, options);
     }
+    if (options.min_distance > 0 && valid && copies.size() < options.count && !map.recording())
+      reading.context.errors.warn(
+          map.mark_of("count"), fmt::format("only {} of {} copies find room at this 'min_distance'",
+                                            copies.size(), options.count));
     copies = moved(reading.context, map, std::move(copies));
   });
   return copies;

@@ -1,0 +1,75 @@
+#include "report/area_warnings.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <optional>
+#include <variant>
+
+namespace pah {
+namespace {
+
+struct Cone {
+  DVec3 axis;    // of unit length
+  double angle;  // between the axis and its outermost rays, in radians
+};
+
+Cone cone_of(const Frustum& frustum) {
+  return {frustum.axes[2], std::atan(glm::length(frustum.tan_half))};
+}
+
+// Around the rays of a bundle that meet in a point; none of those that go everywhere.
+std::optional<Cone> bundle_cone(const World& world, const FilmSettings& film,
+                                std::uint32_t bundle) {
+  if (bundle != camera_bundle) {
+    const auto* spot = std::get_if<SpotLight>(&world.lights[bundle].model);
+    if (spot == nullptr) return std::nullopt;
+    return Cone{glm::normalize(spot->direction), glm::radians(spot->angle)};
+  }
+  const auto* camera = std::get_if<PerspectiveCamera>(&world.camera);
+  if (camera == nullptr) return std::nullopt;
+  const double half_height = std::tan(glm::radians(camera->fov) / 2);
+  return Cone{glm::normalize(camera->look_at - camera->position),
+              std::atan(half_height * std::hypot(1.0, double(film.width) / film.height))};
+}
+
+// For certain: the cones are around more than there is.
+bool are_apart(const Cone& a, const Cone& b) {
+  const double between =
+      std::atan2(glm::length(glm::cross(a.axis, b.axis)), glm::dot(a.axis, b.axis));
+  return between > a.angle + b.angle;
+}
+
+bool no_ray_enters(const SceneArea& area, const World& world, const FilmSettings& film) {
+  const auto* point = std::get_if<PointArea>(&area.area);
+  if (point == nullptr) return false;
+  const std::optional<Cone> rays = bundle_cone(world, film, area.bundle);
+  return rays && are_apart(*rays, cone_of(point->frustum));
+}
+
+}  // namespace
+
+std::vector<std::string> warnings_of(const Acceleration& acceleration, const World& world,
+                                     const FilmSettings& film) {
+  std::vector<std::string> warnings;
+  std::size_t built = 0;
+  for (std::size_t i = 0; i < acceleration.areas.size(); ++i) {
+    if (!acceleration.plans[i].build) continue;
+    const LocalBvhReport& report = acceleration.local->reports()[built++];
+    const SceneArea& area = acceleration.areas[i];
+    if (!area.declared) continue;
+    const std::string title = fmt::format("influence area '{}'", area.name);
+    if (no_ray_enters(area, world, film))
+      warnings.push_back(title + " lies where no ray of its light goes");
+    else if (report.triangles == 0)
+      warnings.push_back(title + " meets no mesh");
+    else if (report.predicted_cost > report.global_cost)
+      warnings.push_back(
+          fmt::format("{} is expected to cost a ray more than the BVH of the whole scene: {:.3g} "
+                      "against {:.3g}",
+                      title, report.predicted_cost, report.global_cost));
+  }
+  return warnings;
+}
+
+}  // namespace pah
