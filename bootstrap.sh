@@ -10,7 +10,7 @@ to_build=(
   libopenimageio-dev openimageio-tools libyaml-cpp-dev libglm-dev libtbb-dev libhwy-dev
   libcli11-dev libfmt-dev nlohmann-json3-dev
 )
-to_test=(catch2 libcgal-dev libbenchmark-dev)
+to_test=(catch2 libcgal-dev libbenchmark-dev libembree-dev)
 to_sanitize=(clang-19 libclang-rt-19-dev)
 to_lint=(clang-19 clang-tidy-19 clang-format-14)
 

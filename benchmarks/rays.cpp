@@ -34,6 +34,7 @@ struct Subject {
   const MeshScene& scene;
   RecordedRays rays;
   std::unique_ptr<Accelerator> bvh = make_global_bvh(scene.world.triangles());
+  std::unique_ptr<Accelerator> embree = make_embree(scene.world.triangles());
   std::unique_ptr<Accelerator> local =
       make_local_bvhs(scene.world.triangles(), {scene.bulb_area, scene.sun_area},
                       {Heuristic::projected_area, SplitAxis::longest, 0.5, {}});
@@ -110,6 +111,7 @@ void register_rays(const std::vector<std::string>& meshes) {
   for (const std::string& mesh : meshes) {
     for (const RayKind& kind : kinds) {
       add(kind, mesh, "bvh", &Subject::bvh);
+      if (has_embree()) add(kind, mesh, "embree", &Subject::embree);
       // Only rays that go to a light have a local BVH to be asked.
       const bool to_light =
           kind.batches == &RecordedRays::to_bulb || kind.batches == &RecordedRays::to_sun;

@@ -8,17 +8,21 @@
 namespace pah {
 namespace {
 
-constexpr std::array<AcceleratorName, 3> names{{
+constexpr std::array<AcceleratorName, 4> names{{
     {"bvh", "one BVH over all triangles"},
     {"local", "that, and a local BVH for each influence area"},
     {"brute_force", "no structure: every ray tests every triangle"},
+    {"embree", "Embree's BVH, for comparison: the picture may differ\nin last bits"},
 }};
 constexpr std::string_view bvh = names[0].name;
 constexpr std::string_view local = names[1].name;
+constexpr std::string_view brute_force = names[2].name;
 
 }  // namespace
 
-std::span<const AcceleratorName> accelerator_names() { return names; }
+std::span<const AcceleratorName> accelerator_names() {
+  return std::span(names).first(has_embree() ? names.size() : names.size() - 1);
+}
 
 LocalArea local_area(const SceneArea& area) { return {area.area, area.bundle, area.declared}; }
 
@@ -37,8 +41,8 @@ Acceleration make_acceleration(const World& world, const Scene& settings, std::s
   for (const SceneArea& area : made.areas) made.plans.push_back(plan(local_area(area)));
   const bool any = std::ranges::any_of(made.plans, &AreaPlan::build);
   const std::string_view wanted = !name.empty() ? name : any ? local : bvh;
-  const auto known = std::ranges::find(names, wanted, &AcceleratorName::name);
-  if (known == names.end())
+  const auto known = std::ranges::find(accelerator_names(), wanted, &AcceleratorName::name);
+  if (known == accelerator_names().end())
     throw std::invalid_argument("unknown accelerator '" + std::string(wanted) + "'");
   made.name = known->name;
   if (made.name == local) {
@@ -53,8 +57,9 @@ Acceleration make_acceleration(const World& world, const Scene& settings, std::s
   }
   for (AreaPlan& plan : made.plans)
     if (plan.build) plan = {false, "the accelerator asked for knows no areas"};
-  made.accelerator =
-      made.name == bvh ? make_global_bvh(world.triangles()) : make_brute_force(world.triangles());
+  made.accelerator = made.name == bvh           ? make_global_bvh(world.triangles())
+                     : made.name == brute_force ? make_brute_force(world.triangles())
+                                                : make_embree(world.triangles());
   return made;
 }
 

@@ -43,9 +43,10 @@ void Batches::add(const std::vector<DVec3>& picture) {
   }
 }
 
-Batches render_batches(const Scene& scene, std::uint64_t first_seed, int count) {
+Batches render_batches(const Scene& scene, std::uint64_t first_seed, int count,
+                       std::unique_ptr<Accelerator> (*make_accelerator)(Triangles)) {
   const World world = make_world(scene);
-  const auto accelerator = make_global_bvh(world.triangles());
+  const auto accelerator = make_accelerator(world.triangles());
   Batches batches(scene.film.width, scene.film.height);
   RenderSettings settings = scene.render;
   for (int i = 0; i < count; ++i) {

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstdint>
+#include <pah/accel/accelerator.hpp>
 #include <pah/scene/scene.hpp>
 #include <vector>
 
@@ -39,6 +40,8 @@ class Batches {
 
 // Renders the scene with its own sample count per batch and the seeds from `first_seed` on. Throws
 // std::runtime_error if a sample is not finite.
-[[nodiscard]] Batches render_batches(const Scene& scene, std::uint64_t first_seed, int count);
+[[nodiscard]] Batches render_batches(
+    const Scene& scene, std::uint64_t first_seed, int count,
+    std::unique_ptr<Accelerator> (*make_accelerator)(Triangles) = make_global_bvh);
 
 }  // namespace pah::golden

@@ -42,7 +42,9 @@ void scale_albedo(Scene& scene, float factor) {
   for (Material& material : scene.materials) std::visit(Scale{factor}, material.model);
 }
 
-void expect_reference(const std::string& name, int batches) {
+void expect_reference(
+    const std::string& name, int batches,
+    std::unique_ptr<Accelerator> (*make_accelerator)(Triangles) = make_global_bvh) {
   CAPTURE(name);
   const LoadedScene loaded = golden::load_golden(name);
   const golden::Reference reference = golden::read_reference(name);
@@ -50,7 +52,8 @@ void expect_reference(const std::string& name, int batches) {
   REQUIRE(loaded.hash == reference.scene_hash);
   REQUIRE(loaded.scene.film.width == reference.batches.width());
   REQUIRE(loaded.scene.film.height == reference.batches.height());
-  const golden::Batches picture = golden::render_batches(loaded.scene, test_seed, batches);
+  const golden::Batches picture =
+      golden::render_batches(loaded.scene, test_seed, batches, make_accelerator);
   const golden::Comparison comparison = golden::compare(reference.batches, picture);
   if (comparison.passed < golden::passing_share) {
     const auto folder = golden::write_failure(name, reference.batches, picture, comparison);
@@ -72,6 +75,14 @@ void expect_change_rejected(const std::string& name) {
 
 TEST_CASE("Every golden scene renders as its reference") {
   for (const std::string& name : scenes) expect_reference(name, few_batches);
+}
+
+TEST_CASE("Embree's pictures are within the references' error, too") {
+  if (!has_embree()) {
+    WARN("skipped: this was built without Embree");
+    return;
+  }
+  for (const std::string& name : scenes) expect_reference(name, few_batches, make_embree);
 }
 
 TEST_CASE("A change of albedo by one percent is rejected in a golden scene") {

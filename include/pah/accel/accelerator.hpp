@@ -1,8 +1,9 @@
 // What answers rays. The one virtual interface of the renderer; it takes batches, because batches
 // are where speed comes from: latency hides, and segments to one light meet one structure.
 //
-// Every accelerator gives the same answers to the last bit: whether and where a ray meets a
-// triangle is decided by one shared test (src/geometry/ray_triangle.hpp), whatever leads there.
+// Every accelerator but Embree gives the same answers to the last bit: whether and where a ray
+// meets a triangle is decided by one shared test (src/geometry/ray_triangle.hpp), whatever leads
+// there.
 #pragma once
 
 #include <cstdint>
@@ -41,6 +42,11 @@ class Accelerator {
 
 // Tests every triangle: the oracle. The triangles must outlive every accelerator made of them.
 [[nodiscard]] std::unique_ptr<Accelerator> make_brute_force(Triangles triangles);
+
+// Embree, as a peer to measure against: its ray-triangle test is its own, so that its answers are
+// not the others' to the last bit, and it counts nothing. Null if this was built without Embree.
+[[nodiscard]] std::unique_ptr<Accelerator> make_embree(Triangles triangles);
+[[nodiscard]] bool has_embree();
 
 // One BVH over all triangles, by the surface area heuristic, built by the calling arena's threads.
 [[nodiscard]] std::unique_ptr<Accelerator> make_global_bvh(Triangles triangles);

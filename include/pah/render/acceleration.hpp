@@ -16,7 +16,7 @@ struct AcceleratorName {
   std::string_view what;
 };
 
-// "bvh", "local" and "brute_force", and what they are.
+// "bvh", "local", "brute_force" and, where it was found, "embree", and what they are.
 [[nodiscard]] std::span<const AcceleratorName> accelerator_names();
 
 struct Acceleration {
@@ -30,8 +30,8 @@ struct Acceleration {
 // Of `settings` it takes influence_areas, acceleration and film; the geometry is the world's, which
 // must outlive the accelerator. `name` is one of accelerator_names(), or empty: then it is local if
 // there is an area to build, and bvh otherwise. Builds by the calling arena's threads. The
-// accelerator's answers are the same to the last bit whatever the settings. Throws
-// std::invalid_argument for another name, and as areas_of does.
+// accelerator's answers are the same to the last bit whatever the settings, but for Embree's.
+// Throws std::invalid_argument for another name, and as areas_of does.
 [[nodiscard]] Acceleration make_acceleration(const World& world, const Scene& settings,
                                              std::string_view name = {});
 

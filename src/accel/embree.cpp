@@ -1,0 +1,136 @@
+// Embree (3.13 or 4) behind the same interface: a peer to be measured against. One ray at a time,
+// by its fastest settings. Its ray-triangle test is its own, so its answers are not ours to the
+// last bit.
+#include <algorithm>
+#include <atomic>
+#include <pah/accel/accelerator.hpp>
+#include <stdexcept>
+#include <string>
+#if PAH_EMBREE >= 4
+#include <embree4/rtcore.h>
+#elif PAH_EMBREE
+#include <embree3/rtcore.h>
+#endif
+
+namespace pah {
+
+#if PAH_EMBREE
+
+namespace {
+
+class Embree final : public Accelerator {
+ public:
+  explicit Embree(const Triangles& triangles) {
+    if (device_ == nullptr) throw std::runtime_error("Embree cannot be started");
+    rtcSetDeviceMemoryMonitorFunction(device_, count_bytes, &bytes_);
+    scene_ = rtcNewScene(device_);
+    rtcSetSceneBuildQuality(scene_, RTC_BUILD_QUALITY_HIGH);
+    if (triangles.size() > 0) add(triangles);
+    rtcCommitScene(scene_);
+    if (const RTCError error = rtcGetDeviceError(device_); error != RTC_ERROR_NONE) {
+      release();
+      throw std::runtime_error("Embree cannot build its structure: error " + std::to_string(error));
+    }
+  }
+  ~Embree() override { release(); }
+
+  void closest_hit(std::span<const Ray> rays, std::span<Hit> hits,
+                   TraversalCounts* /*counts*/) const override {
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      RTCRayHit query{prepared(rays[i]), {}};
+      query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+#if PAH_EMBREE >= 4
+      rtcIntersect1(scene_, &query);
+#else
+      RTCIntersectContext context;
+      rtcInitIntersectContext(&context);
+      rtcIntersect1(scene_, &context, &query);
+#endif
+      hits[i] = query.hit.geomID == RTC_INVALID_GEOMETRY_ID
+                    ? Hit{}
+                    : Hit{query.ray.tfar, query.hit.u, query.hit.v, query.hit.primID};
+    }
+  }
+
+  void occluded(std::span<const Ray> rays, std::span<std::uint8_t> results,
+                TraversalCounts* /*counts*/) const override {
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      RTCRay query = prepared(rays[i]);
+#if PAH_EMBREE >= 4
+      rtcOccluded1(scene_, &query);
+#else
+      RTCIntersectContext context;
+      rtcInitIntersectContext(&context);
+      rtcOccluded1(scene_, &context, &query);
+#endif
+      results[i] = query.tfar < 0 ? 1 : 0;
+    }
+  }
+
+  [[nodiscard]] AcceleratorMemory memory() const override {
+    return {.global_bvh = static_cast<std::uint64_t>(std::max<std::int64_t>(bytes_, 0))};
+  }
+
+ private:
+  static bool count_bytes(void* total, ssize_t bytes, bool /*after*/) {
+    *static_cast<std::atomic<std::int64_t>*>(total) += bytes;
+    return true;
+  }
+
+  static RTCRay prepared(const Ray& ray) {
+    RTCRay query{};
+    query.org_x = ray.origin.x;
+    query.org_y = ray.origin.y;
+    query.org_z = ray.origin.z;
+    query.dir_x = ray.direction.x;
+    query.dir_y = ray.direction.y;
+    query.dir_z = ray.direction.z;
+    query.tfar = ray.t_max;
+    query.mask = ~0U;
+    return query;
+  }
+
+  void add(const Triangles& triangles) {
+    const RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
+    // Copies: Embree reads 16 bytes of the last position, too.
+    void* positions =
+        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                sizeof(Vec3), triangles.positions.size());
+    void* indices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                                            sizeof(UVec3), triangles.indices.size());
+    if (positions != nullptr && indices != nullptr) {
+      std::ranges::copy(triangles.positions, static_cast<Vec3*>(positions));
+      std::ranges::copy(triangles.indices, static_cast<UVec3*>(indices));
+      rtcCommitGeometry(geometry);
+      rtcAttachGeometry(scene_, geometry);
+    }
+    rtcReleaseGeometry(geometry);
+  }
+
+  void release() {
+    if (scene_ != nullptr) rtcReleaseScene(scene_);
+    rtcReleaseDevice(device_);
+  }
+
+  std::atomic<std::int64_t> bytes_ = 0;
+  RTCDevice device_ = rtcNewDevice(nullptr);
+  RTCScene scene_ = nullptr;
+};
+
+}  // namespace
+
+std::unique_ptr<Accelerator> make_embree(Triangles triangles) {
+  return std::make_unique<Embree>(triangles);
+}
+
+bool has_embree() { return true; }
+
+#else
+
+std::unique_ptr<Accelerator> make_embree(Triangles /*triangles*/) { return nullptr; }
+
+bool has_embree() { return false; }
+
+#endif
+
+}  // namespace pah
