@@ -77,11 +77,13 @@ class BruteForce final : public Accelerator {
       for (std::size_t axis = 0; axis < 3; ++axis) {
         const int k = static_cast<int>(axis);
         const auto& planes = boxes_[group].planes[axis];
-        const auto& near_plane = planes[ray.negative[axis]];
-        const auto& far_plane = planes[1U - ray.negative[axis]];
+        const std::size_t near_side = ray.negative[axis];
+        const std::size_t far_side = 1 - near_side;
+        const float near_origin = ray.plane_origin[near_side][k];
+        const float far_origin = ray.plane_origin[far_side][k];
         for (std::size_t i = 0; i < BoxGroup::size; ++i) {
-          near[i] = std::max(near[i], (near_plane[i] - ray.near_origin[k]) * ray.inverse[k]);
-          far[i] = std::min(far[i], (far_plane[i] - ray.far_origin[k]) * ray.inverse[k]);
+          near[i] = std::max(near[i], (planes[near_side][i] - near_origin) * ray.inverse[k]);
+          far[i] = std::min(far[i], (planes[far_side][i] - far_origin) * ray.inverse[k]);
         }
       }
       for (std::size_t i = 0; i < BoxGroup::size; ++i) {

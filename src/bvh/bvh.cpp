@@ -28,7 +28,7 @@ class Collapser {
       BvhNode node{};
       for (std::size_t k = 0; k < BvhNode::width; ++k) {
         const bool used = k < children.count;
-        const Aabb box = used ? tree_.nodes[children.nodes[k]].box : Aabb{};
+        const Aabb box = used ? node_box(tree_.nodes[children.nodes[k]].box) : Aabb{};
         for (int axis = 0; axis < 3; ++axis) {
           node.planes[axis][0][k] = box.min[axis];
           node.planes[axis][1][k] = box.max[axis];

@@ -25,21 +25,21 @@ HWY_INLINE std::uint32_t bits(D d, M mask) {
   return bytes[0];
 }
 
-// What the slab test needs of a ray, held in registers while it is traversed.
-struct SlabRay {
+// A ray as nodes are tested with it.
+struct NodeRay {
   using D = hn::CappedTag<float, BvhNode::width>;
   hn::Vec<D> inverse[3];
-  hn::Vec<D> near_origin[3];
-  hn::Vec<D> far_origin[3];
+  hn::Vec<D> near_offset[3];
+  hn::Vec<D> far_offset[3];
   std::size_t near_planes[3];  // where in a node, in floats
   std::size_t far_planes[3];
 
-  HWY_INLINE explicit SlabRay(const PreparedRay& ray) {
+  HWY_INLINE explicit NodeRay(const PreparedRay& ray) {
     const D d;
     for (int axis = 0; axis < 3; ++axis) {
-      inverse[axis] = hn::Set(d, ray.inverse[axis]);
-      near_origin[axis] = hn::Set(d, ray.near_origin[axis]);
-      far_origin[axis] = hn::Set(d, ray.far_origin[axis]);
+      inverse[axis] = hn::Set(d, ray.node_inverse[axis]);
+      near_offset[axis] = hn::Set(d, ray.near_offset[axis]);
+      far_offset[axis] = hn::Set(d, ray.far_offset[axis]);
       const std::size_t plane = 2 * static_cast<std::size_t>(axis);
       near_planes[axis] = (plane + ray.negative[axis]) * BvhNode::width;
       far_planes[axis] = (plane + 1 - ray.negative[axis]) * BvhNode::width;
@@ -53,14 +53,18 @@ struct SlabRay {
     const float* planes = node.planes[0][0];
     std::uint32_t hits = 0;
     for (std::size_t lane = 0; lane < BvhNode::width; lane += hn::Lanes(d)) {
-      auto start = hn::Zero(d);
-      auto end = hn::Set(d, limit);
-      for (int axis = 0; axis < 3; ++axis) {
-        const auto near_plane = hn::Load(d, planes + near_planes[axis] + lane);
-        const auto far_plane = hn::Load(d, planes + far_planes[axis] + lane);
-        start = hn::Max(start, hn::Mul(hn::Sub(near_plane, near_origin[axis]), inverse[axis]));
-        end = hn::Min(end, hn::Mul(hn::Sub(far_plane, far_origin[axis]), inverse[axis]));
-      }
+      const auto start_of = [&](int axis) HWY_ATTR {
+        return hn::MulAdd(hn::Load(d, planes + near_planes[axis] + lane), inverse[axis],
+                          near_offset[axis]);
+      };
+      const auto end_of = [&](int axis) HWY_ATTR {
+        return hn::MulAdd(hn::Load(d, planes + far_planes[axis] + lane), inverse[axis],
+                          far_offset[axis]);
+      };
+      const auto start =
+          hn::Max(hn::Max(start_of(0), start_of(1)), hn::Max(start_of(2), hn::Zero(d)));
+      const auto end =
+          hn::Min(hn::Min(end_of(0), end_of(1)), hn::Min(end_of(2), hn::Set(d, limit)));
       hn::Store(start, d, near + lane);
       hits |= bits(d, hn::Le(start, end)) << lane;
     }
@@ -68,42 +72,81 @@ struct SlabRay {
   }
 };
 
-// Which triangles pass the signs of the edge functions: the formulas of ray_triangle.hpp, side by
-// side. Survivors are few, and the shared rule decides them.
-HWY_INLINE std::uint32_t maybe_hit(const TriangleBlock& block, const PreparedRay& ray) {
-  const hn::CappedTag<float, TriangleBlock::width> d;
-  const auto x = ray.axes[0];
-  const auto y = ray.axes[1];
-  const auto z = ray.axes[2];
-  const auto origin_x = hn::Set(d, ray.origin[x]);
-  const auto origin_y = hn::Set(d, ray.origin[y]);
-  const auto origin_z = hn::Set(d, ray.origin[z]);
-  const auto shear_x = hn::Set(d, ray.shear_x);
-  const auto shear_y = hn::Set(d, ray.shear_y);
-  const auto zero = hn::Zero(d);
-  std::uint32_t hits = 0;
-  for (std::size_t lane = 0; lane < TriangleBlock::width; lane += hn::Lanes(d)) {
-    const auto& v = block.vertices;
-    const auto sheared = [&](const float* plane, const float* depth, auto origin,
-                             auto shear) HWY_ATTR {
-      return hn::Sub(hn::Sub(hn::Load(d, plane + lane), origin),
-                     hn::Mul(shear, hn::Sub(hn::Load(d, depth + lane), origin_z)));
-    };
-    const auto px = sheared(v[0][x], v[0][z], origin_x, shear_x);
-    const auto py = sheared(v[0][y], v[0][z], origin_y, shear_y);
-    const auto qx = sheared(v[1][x], v[1][z], origin_x, shear_x);
-    const auto qy = sheared(v[1][y], v[1][z], origin_y, shear_y);
-    const auto rx = sheared(v[2][x], v[2][z], origin_x, shear_x);
-    const auto ry = sheared(v[2][y], v[2][z], origin_y, shear_y);
-    const auto a = hn::Sub(hn::Mul(rx, qy), hn::Mul(ry, qx));
-    const auto b = hn::Sub(hn::Mul(px, ry), hn::Mul(py, rx));
-    const auto c = hn::Sub(hn::Mul(qx, py), hn::Mul(qy, px));
-    const auto some_below = hn::Or(hn::Or(hn::Lt(a, zero), hn::Lt(b, zero)), hn::Lt(c, zero));
-    const auto some_above = hn::Or(hn::Or(hn::Gt(a, zero), hn::Gt(b, zero)), hn::Gt(c, zero));
-    hits |= bits(d, hn::Not(hn::And(some_below, some_above))) << lane;
+// Triangles as a ray sees them.
+struct ShearedBlock {
+  HWY_ALIGN float vertices[3][3][TriangleBlock::width];
+  HWY_ALIGN float edges[3][TriangleBlock::width];
+
+  [[nodiscard]] HWY_INLINE detail::ShearedVertex vertex(std::size_t k, std::size_t lane) const {
+    return {vertices[k][0][lane], vertices[k][1][lane], vertices[k][2][lane]};
   }
-  return hits;
-}
+  // The rest of the rule for one of them.
+  HWY_INLINE bool accept(const PreparedRay& ray, const TriangleBlock& block, std::size_t lane,
+                         float t_limit, TriangleHit& hit) const {
+    const auto corner = [&](std::size_t k) {
+      const auto& v = block.vertices[k];
+      return Float4{v[0][lane], v[1][lane], v[2][lane], 0};
+    };
+    return detail::accept(
+        ray, detail::own_interval(ray, corner(0), corner(1), corner(2)), vertex(0, lane),
+        vertex(1, lane), vertex(2, lane),
+        detail::EdgeFunctions<float>(edges[0][lane], edges[1][lane], edges[2][lane]), t_limit, hit);
+  }
+};
+
+// A ray as triangles are tested with it.
+struct TriangleRay {
+  using D = hn::CappedTag<float, TriangleBlock::width>;
+  hn::Vec<D> origin[3];
+  hn::Vec<D> shear[2];
+  std::size_t axes[3];  // where in a vertex, in floats
+
+  HWY_INLINE explicit TriangleRay(const PreparedRay& ray) {
+    const D d;
+    for (int i = 0; i < 3; ++i) {
+      origin[i] = hn::Set(d, ray.origin[i]);
+      axes[i] = ray.axes[static_cast<std::size_t>(i)] * TriangleBlock::width;
+    }
+    shear[0] = hn::Set(d, ray.shear_x);
+    shear[1] = hn::Set(d, ray.shear_y);
+  }
+
+  // Which triangles pass the signs of the edge functions: the formulas of ray_triangle.hpp, side by
+  // side. Survivors are few, and the rest of the shared rule decides them.
+  HWY_INLINE std::uint32_t maybe_hit(const TriangleBlock& block, ShearedBlock& sheared) const {
+    const D d;
+    const auto zero = hn::Zero(d);
+    std::uint32_t hits = 0;
+    for (std::size_t lane = 0; lane < TriangleBlock::width; lane += hn::Lanes(d)) {
+      hn::Vec<D> x[3];
+      hn::Vec<D> y[3];
+      hn::Vec<D> z[3];
+      for (int k = 0; k < 3; ++k) {
+        const float* vertex = block.vertices[k][0] + lane;
+        z[k] = hn::Sub(hn::Load(d, vertex + axes[2]), origin[2]);
+        x[k] = hn::Sub(hn::Sub(hn::Load(d, vertex + axes[0]), origin[0]), hn::Mul(shear[0], z[k]));
+        y[k] = hn::Sub(hn::Sub(hn::Load(d, vertex + axes[1]), origin[1]), hn::Mul(shear[1], z[k]));
+      }
+      const auto a = hn::Sub(hn::Mul(x[2], y[1]), hn::Mul(y[2], x[1]));
+      const auto b = hn::Sub(hn::Mul(x[0], y[2]), hn::Mul(y[0], x[2]));
+      const auto c = hn::Sub(hn::Mul(x[1], y[0]), hn::Mul(y[1], x[0]));
+      const auto least = hn::Min(hn::Min(a, b), c);
+      const auto most = hn::Max(hn::Max(a, b), c);
+      const std::uint32_t some = bits(d, hn::Not(hn::And(hn::Lt(least, zero), hn::Gt(most, zero))));
+      if (some == 0) continue;
+      hits |= some << lane;
+      for (int k = 0; k < 3; ++k) {
+        hn::Store(x[k], d, sheared.vertices[k][0] + lane);
+        hn::Store(y[k], d, sheared.vertices[k][1] + lane);
+        hn::Store(z[k], d, sheared.vertices[k][2] + lane);
+      }
+      hn::Store(a, d, sheared.edges[0] + lane);
+      hn::Store(b, d, sheared.edges[1] + lane);
+      hn::Store(c, d, sheared.edges[2] + lane);
+    }
+    return hits;
+  }
+};
 
 struct Entry {
   ChildRef child;
@@ -133,7 +176,9 @@ HWY_INLINE void prefetch(const Bvh& bvh, ChildRef child) {
 template <bool counting>
 HWY_INLINE void closest(const Bvh& bvh, const PreparedRay& ray, Hit& best,
                         TraversalCounts& counts) {
-  const SlabRay slabs(ray);
+  const NodeRay nodes(ray);
+  const TriangleRay triangles(ray);
+  ShearedBlock sheared;
   HWY_ALIGN float near[BvhNode::width];
   Entry stack[stack_size];
   Entry* top = stack;
@@ -143,7 +188,7 @@ HWY_INLINE void closest(const Bvh& bvh, const PreparedRay& ray, Hit& best,
     if (!current.is_leaf()) {
       if (counting) ++counts.inner_nodes;
       const BvhNode& node = bvh.nodes[current.node()];
-      std::uint32_t hits = slabs.meet_children(node, best.t, near);
+      std::uint32_t hits = nodes.meet_children(node, best.t, near);
       if (hits != 0) {
         // Goes on with the nearest; the others wait, the nearest of them on top.
         std::uint32_t k = lowest_bit(hits);
@@ -168,9 +213,12 @@ HWY_INLINE void closest(const Bvh& bvh, const PreparedRay& ray, Hit& best,
       const TriangleBlock* block = &bvh.blocks[current.first_block()];
       for (std::uint32_t begin = 0; begin < count; begin += TriangleBlock::width, ++block) {
         if (counting) ++counts.blocks;
-        for (std::uint32_t hits = maybe_hit(*block, ray); hits != 0; hits &= hits - 1) {
+        for (std::uint32_t hits = triangles.maybe_hit(*block, sheared); hits != 0;
+             hits &= hits - 1) {
           const std::uint32_t lane = lowest_bit(hits);
-          update_nearest(ray, block->triangle(lane), block->indices[lane], best);
+          TriangleHit hit;
+          if (sheared.accept(ray, *block, lane, best.t, hit))
+            keep_nearer(hit, block->indices[lane], best);
         }
       }
     }
@@ -185,7 +233,9 @@ HWY_INLINE void closest(const Bvh& bvh, const PreparedRay& ray, Hit& best,
 
 template <bool counting>
 HWY_INLINE bool any(const Bvh& bvh, const PreparedRay& ray, TraversalCounts& counts) {
-  const SlabRay slabs(ray);
+  const NodeRay nodes(ray);
+  const TriangleRay triangles(ray);
+  ShearedBlock sheared;
   HWY_ALIGN float near[BvhNode::width];
   ChildRef stack[stack_size];
   ChildRef* top = stack;
@@ -196,7 +246,7 @@ HWY_INLINE bool any(const Bvh& bvh, const PreparedRay& ray, TraversalCounts& cou
     if (!child.is_leaf()) {
       if (counting) ++counts.inner_nodes;
       const BvhNode& node = bvh.nodes[child.node()];
-      std::uint32_t hits = slabs.meet_children(node, ray.t_max, near);
+      std::uint32_t hits = nodes.meet_children(node, ray.t_max, near);
       for (; hits != 0; hits &= hits - 1) *top++ = node.children[lowest_bit(hits)];
       continue;
     }
@@ -206,8 +256,8 @@ HWY_INLINE bool any(const Bvh& bvh, const PreparedRay& ray, TraversalCounts& cou
     for (std::uint32_t begin = 0; begin < count; begin += TriangleBlock::width, ++block) {
       if (counting) ++counts.blocks;
       TriangleHit hit;
-      for (std::uint32_t hits = maybe_hit(*block, ray); hits != 0; hits &= hits - 1) {
-        if (intersect_triangle(ray, block->triangle(lowest_bit(hits)), ray.t_max, hit)) return true;
+      for (std::uint32_t hits = triangles.maybe_hit(*block, sheared); hits != 0; hits &= hits - 1) {
+        if (sheared.accept(ray, *block, lowest_bit(hits), ray.t_max, hit)) return true;
       }
     }
   }

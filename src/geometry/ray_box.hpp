@@ -1,9 +1,10 @@
 // A ray made ready for box and triangle tests, and the slab test of boxes.
 //
-// All boxes of a scene are tested by one formula: per axis t_near = (near plane - near_origin) *
+// Boxes of triangles are tested by one formula: per axis t_near = (near plane - its origin) *
 // inverse and t_far likewise. Each operation rounds monotonically, so that a box inside another has
 // an interval inside the other's TO THE LAST BIT. That is what makes culling exact; see
-// ray_triangle.hpp for how the two tests become one rule.
+// ray_triangle.hpp for how the two tests become one rule. Nodes take a faster formula that is
+// proven to be wider (below).
 //
 // Boxes are padded against rounding. With M the largest distance along an axis from the ray's
 // origin to a corner of the triangle's box, the padding must cover
@@ -12,10 +13,10 @@
 //          Traversal", JCGT 2013) widens t_far for this; padding the planes covers both ends.
 // M is at most the largest coordinate A of the box and O of the origin, by magnitude, together. So
 // a triangle's box is padded for its A when a structure is built, and the origin for its O when a
-// ray is prepared (near planes are seen from further along the direction, far planes from further
-// back): nothing is left to do per box, and what is far away does not widen what is near.
-// rounding_bound(11) leaves one u for terms of second order. Adding the padding to a coordinate,
-// and computing it, rounds, too: 2 u of the coordinate more make up for that.
+// ray is prepared (lower planes are seen from higher up, upper ones from lower): nothing is left to
+// do per box, and what is far away does not widen what is near. rounding_bound(11) leaves one u for
+// terms of second order. Adding the padding to a coordinate, and computing it, rounds, too: 2 u of
+// the coordinate more make up for that.
 //
 // A zero of the direction would give 0 * infinity; its inverse is the largest float instead, with
 // the zero's sign. Either the origin is outside the padded slab (t_near is then huge: a miss) or it
@@ -29,71 +30,120 @@
 #include <pah/geometry/aabb.hpp>
 #include <pah/geometry/ray.hpp>
 
+#include "geometry/float4.hpp"
 #include "geometry/rounding.hpp"
 
 namespace pah {
 
+inline constexpr float triangle_padding = rounding_bound(13);
+inline constexpr float origin_padding = rounding_bound(11);
+
+// Nodes are tested in one step an axis instead of two: t = plane * inverse + offset, offset being
+// -origin * inverse. That rounds otherwise, so it is widened until a node's interval holds that of
+// every padded box inside it, for all that matters: near is no larger, and far no smaller wherever
+// the box's interval is not empty. For a positive direction, with p a plane of the box, o the
+// origin it is seen from and i the inverse, the box's near is fl(fl(p - o) * i) = fl(y) with
+// y >= (p - o) i (1 - u) where that is above zero. The node's is fl(x): x is off from (p - o) i by
+// u i (|p| + 2 |o|) at most (the product p * i rounds where there is no fused multiply-add; o's
+// rounding and the offset's do), and by two of the smallest floats where products underflow. Planes
+// and origins moved by rounding_bound(4) of themselves, 3 u after rounding, and offsets by those
+// two floats make x <= (p - o) i - u i (|p| + |o|) <= y, hence fl(x) <= fl(y). Moved planes keep
+// their order, so that a node's plane does for all boxes in it. far and negative directions are
+// mirror images.
+//
+// Components of less than smallest_component of the largest, L, count as that much in nodes, lest
+// products overflow. What is outside of a slab is thus met no later. What is inside leaves it no
+// sooner than after 3 u (|p| + |o|) / (2^-27 L) = 24 (|p| + |o|) / L, when it has left the box
+// along the largest axis.
+inline constexpr float node_rounding = rounding_bound(4);
+inline constexpr float smallest_component = 0x1p-27F;
+
 struct PreparedRay {
-  // The slab test.
-  Vec3 near_origin{0};
-  Vec3 far_origin{0};
-  Vec3 inverse{0};                         // 1 / direction, finite
-  std::array<std::uint8_t, 3> negative{};  // 1 where the direction is below zero (or -0)
+  // The slab test of padded boxes.
+  std::array<Float4, 2> plane_origin{};  // where lower planes are seen from, and upper ones
+  Float4 inverse{};                      // 1 / direction, finite
+
+  // The slab test of nodes: t = plane * node_inverse + offset, widened.
+  Float4 node_inverse{};
+  Float4 near_offset{};
+  Float4 far_offset{};
 
   // The triangle test: the axis of the largest component becomes z, a shear makes the ray z.
-  std::array<std::uint8_t, 3> axes{0, 1, 2};
-  Vec3 origin{0};
+  float origin[3]{};  // along `axes`
   float shear_x = 0;
   float shear_y = 0;
   float scale_z = 0;
 
   float t_max = -1;  // no interval reaches below zero: such a ray hits nothing
+  std::array<std::uint8_t, 3> axes{0, 1, 2};
+  std::array<std::uint8_t, 3> negative{};  // 1 where the direction is below zero (or -0)
 };
 
-// The directions that can be told from zero and infinity without losing digits. Others (and NaN)
-// hit nothing.
+// The directions that can be told from zero and infinity without losing digits, and how far from
+// the world's origin they may start, in units of the direction. Others (and NaN) hit nothing.
 inline constexpr float min_direction = 0x1p-100F;
 inline constexpr float max_direction = 0x1p100F;
+inline constexpr float max_origin = 0x1p99F;
 
 [[nodiscard]] inline float largest_of(const Vec3& v) { return std::max(v.x, std::max(v.y, v.z)); }
 
 // The box of a triangle, or of several, as rays are to meet it. A box inside another stays inside.
 [[nodiscard]] inline Aabb padded(const Aabb& box) {
   const float padding =
-      rounding_bound(13) * largest_of(glm::max(glm::abs(box.min), glm::abs(box.max)));
+      triangle_padding * largest_of(glm::max(glm::abs(box.min), glm::abs(box.max)));
   return {box.min - padding, box.max + padding};
+}
+
+// A padded box as a node has it.
+[[nodiscard]] inline Aabb node_box(const Aabb& box) {
+  return {box.min - node_rounding * glm::abs(box.min), box.max + node_rounding * glm::abs(box.max)};
 }
 
 [[nodiscard]] inline PreparedRay prepare(const Ray& ray) {
   PreparedRay prepared;
-  const Vec3 size = glm::abs(ray.direction);
+  const Float4 origin = float4(ray.origin);
+  const Float4 direction = float4(ray.direction, 1);
+  const Float4 size = abs(direction);
   const float largest = largest_of(size);
+  const float far_away = largest_of(abs(origin));
   // A sum is NaN if any summand is, and infinite or NaN if any is infinite.
-  const bool usable = size.x + size.y + size.z <= 3 * max_direction && largest >= min_direction &&
-                      std::isfinite(ray.origin.x) && std::isfinite(ray.origin.y) &&
-                      std::isfinite(ray.origin.z) && ray.t_max > 0;
+  const float length = size[0] + size[1] + size[2];
+  const float place = ray.origin.x + ray.origin.y + ray.origin.z;
+  const bool usable = length <= 3 * max_direction && largest >= min_direction &&
+                      far_away <= max_origin * largest && place == place && ray.t_max > 0;
   if (!usable) return prepared;
 
-  const float padding = rounding_bound(11) * largest_of(glm::abs(ray.origin));
-  for (int i = 0; i < 3; ++i) {
-    const float huge = std::numeric_limits<float>::max();
-    const float inverse = std::clamp(1.0F / ray.direction[i], -huge, huge);
-    const float pad = std::copysign(padding + 2 * unit_roundoff * std::abs(ray.origin[i]), inverse);
-    prepared.inverse[i] = inverse;
-    prepared.negative[i] = inverse < 0 ? 1 : 0;
-    prepared.near_origin[i] = ray.origin[i] + pad;
-    prepared.far_origin[i] = ray.origin[i] - pad;
-  }
+  constexpr float huge = std::numeric_limits<float>::max();
+  constexpr float tiny = 2 * std::numeric_limits<float>::denorm_min();
+  const Float4 pad = origin_padding * far_away + 2 * unit_roundoff * abs(origin);
+  const Float4 low = origin + pad;
+  const Float4 high = origin - pad;
+  const Float4 inverse = min(max(1 / direction, splat(-huge)), splat(huge));
+  const Float4 node_inverse =
+      1 / with_sign_of(max(size, splat(smallest_component * largest)), direction);
+  const Float4 low_offset = (low + node_rounding * abs(low)) * node_inverse;
+  const Float4 high_offset = (high - node_rounding * abs(high)) * node_inverse;
+  const Int4 negative = inverse < 0;
+  prepared.plane_origin = {low, high};
+  prepared.inverse = inverse;
+  prepared.node_inverse = node_inverse;
+  prepared.near_offset = -(negative ? high_offset : low_offset) - tiny;
+  prepared.far_offset = -(negative ? low_offset : high_offset) + tiny;
+  for (std::size_t i = 0; i < 3; ++i)
+    prepared.negative[i] = static_cast<std::uint8_t>(negative[i] & 1);
 
-  const std::uint8_t z = size.x == largest ? 0 : size.y == largest ? 1 : 2;
-  const std::uint8_t x = z == 2 ? 0 : z + 1;
-  const std::uint8_t y = z == 0 ? 2 : z - 1;
+  const std::uint8_t z = size[0] == largest ? 0 : size[1] == largest ? 1 : 2;
+  constexpr std::array<std::uint8_t, 5> cycle{0, 1, 2, 0, 1};
+  const std::uint8_t x = cycle[z + 1U];
+  const std::uint8_t y = cycle[z + 2U];
+  const float* const origins = &ray.origin.x;
+  const float* const directions = &ray.direction.x;
   prepared.axes = {x, y, z};
-  prepared.origin = ray.origin;
-  prepared.scale_z = prepared.inverse[z];
-  prepared.shear_x = ray.direction[x] * prepared.scale_z;
-  prepared.shear_y = ray.direction[y] * prepared.scale_z;
-  prepared.t_max = std::min(ray.t_max, std::numeric_limits<float>::max());
+  for (std::size_t i = 0; i < 3; ++i) prepared.origin[i] = origins[prepared.axes[i]];
+  prepared.scale_z = std::min(std::max(1 / directions[z], -huge), huge);
+  prepared.shear_x = directions[x] * prepared.scale_z;
+  prepared.shear_y = directions[y] * prepared.scale_z;
+  prepared.t_max = std::min(ray.t_max, huge);
   return prepared;
 }
 
@@ -106,11 +156,11 @@ struct SlabInterval {
 [[nodiscard]] inline SlabInterval intersect_box(const PreparedRay& ray, const Aabb& box) {
   SlabInterval interval;
   for (int i = 0; i < 3; ++i) {
-    const bool negative = ray.negative[i] != 0;
-    const float near = (negative ? box.max[i] : box.min[i]) - ray.near_origin[i];
-    const float far = (negative ? box.min[i] : box.max[i]) - ray.far_origin[i];
-    interval.near = std::max(interval.near, near * ray.inverse[i]);
-    interval.far = std::min(interval.far, far * ray.inverse[i]);
+    const float low = (box.min[i] - ray.plane_origin[0][i]) * ray.inverse[i];
+    const float high = (box.max[i] - ray.plane_origin[1][i]) * ray.inverse[i];
+    const bool negative = ray.negative[static_cast<std::size_t>(i)] != 0;
+    interval.near = std::max(interval.near, negative ? high : low);
+    interval.far = std::min(interval.far, negative ? low : high);
   }
   return interval;
 }

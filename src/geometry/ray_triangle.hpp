@@ -11,11 +11,11 @@
 // Among hits the least (t, triangle index) wins.
 //
 // Why no acceleration changes an answer. The rule depends on the ray and the triangle only. A box
-// of a tree contains its triangles' padded boxes exactly, and the slab formula is monotone; so a
-// node's interval contains the interval of each triangle below it, in which the reported t lies:
-// near(node) <= t <= far(node). A traversal that skips a node only if its interval is empty or
-// near(node) > t of a hit already found can therefore not skip the winner, whatever the tree and
-// the order.
+// of a tree contains its triangles' padded boxes exactly, and a node's test is no narrower than
+// the triangle's (ray_box.hpp); so a node's interval contains the interval of each triangle below
+// it, in which the reported t lies: near(node) <= t <= far(node). A traversal that skips a node
+// only if its interval is empty or near(node) > t of a hit already found can therefore not skip the
+// winner, whatever the tree and the order.
 //
 // Why the box takes no hit away. Edge functions have the exact sign for the sheared, rounded
 // vertices: rounding is monotone, so a float difference of float products errs in sign only by
@@ -34,6 +34,9 @@
 
 namespace pah {
 
+// All of it is inlined: kernels are compiled for other instruction sets than the rest, and calls
+// between the two cost more than what is called.
+
 struct TriangleHit {
   float t = 0;
   float u = 0;
@@ -47,11 +50,13 @@ struct ShearedVertex {
   float x, y, z;
 };
 
-[[nodiscard]] inline ShearedVertex shear(const PreparedRay& ray, const Vec3& vertex) {
+[[nodiscard, gnu::always_inline]] inline ShearedVertex shear(const PreparedRay& ray,
+                                                             const Vec3& vertex) {
+  const float* const along = &vertex.x;
   const auto [x, y, z] = ray.axes;
-  const float depth = vertex[z] - ray.origin[z];
-  return {(vertex[x] - ray.origin[x]) - ray.shear_x * depth,
-          (vertex[y] - ray.origin[y]) - ray.shear_y * depth, depth};
+  const float depth = along[z] - ray.origin[2];
+  return {(along[x] - ray.origin[0]) - ray.shear_x * depth,
+          (along[y] - ray.origin[1]) - ray.shear_y * depth, depth};
 }
 
 // Twice the areas that the origin spans with the edges opposite to a, b and c.
@@ -59,15 +64,18 @@ template <typename Real>
 struct EdgeFunctions {
   Real a, b, c;
 
-  EdgeFunctions(const ShearedVertex& p, const ShearedVertex& q, const ShearedVertex& r)
+  [[gnu::always_inline]] EdgeFunctions(Real of_a, Real of_b, Real of_c)
+      : a(of_a), b(of_b), c(of_c) {}
+  [[gnu::always_inline]] EdgeFunctions(const ShearedVertex& p, const ShearedVertex& q,
+                                       const ShearedVertex& r)
       : a(cross(r, q)), b(cross(p, r)), c(cross(q, p)) {}
 
-  [[nodiscard]] bool mixed_signs() const {
+  [[nodiscard, gnu::always_inline]] bool mixed_signs() const {
     return (a < 0 || b < 0 || c < 0) && (a > 0 || b > 0 || c > 0);
   }
 
  private:
-  static Real cross(const ShearedVertex& p, const ShearedVertex& q) {
+  [[gnu::always_inline]] static Real cross(const ShearedVertex& p, const ShearedVertex& q) {
     return Real{p.x} * Real{q.y} - Real{p.y} * Real{q.x};
   }
 };
@@ -79,20 +87,25 @@ struct Barycentrics {
 };
 
 template <typename Real>
-[[nodiscard]] Barycentrics barycentrics(const EdgeFunctions<Real>& edge) {
+[[nodiscard, gnu::always_inline]] inline Barycentrics barycentrics(
+    const EdgeFunctions<Real>& edge) {
   const Real determinant = edge.a + edge.b + edge.c;
   if (!(std::abs(determinant) > 0)) return {};
   const Real inverse = 1 / determinant;
-  const auto weight = [&](Real e) { return static_cast<float>(std::min(e * inverse, Real{1})); };
+  const auto weight = [&](Real e) __attribute__((always_inline)) {
+    return static_cast<float>(std::min(e * inverse, Real{1}));
+  };
   return {weight(edge.a), weight(edge.b), weight(edge.c), double{inverse},
           double{std::max(std::abs(edge.a), std::max(std::abs(edge.b), std::abs(edge.c)))}};
 }
 
 // How far t can be from the truth, at most (pbrt-v4, 6.8.5): what decides its sign.
-[[nodiscard]] inline double distance_error(const ShearedVertex& p, const ShearedVertex& q,
-                                           const ShearedVertex& r, float scale_z,
-                                           const Barycentrics& weights) {
-  const auto largest = [](float a, float b, float c) {
+[[nodiscard, gnu::always_inline]] inline double distance_error(const ShearedVertex& p,
+                                                               const ShearedVertex& q,
+                                                               const ShearedVertex& r,
+                                                               float scale_z,
+                                                               const Barycentrics& weights) {
+  const auto largest = [](float a, float b, float c) __attribute__((always_inline)) {
     return std::max(std::abs(a), std::max(std::abs(b), std::abs(c)));
   };
   const float z = largest(p.z, q.z, r.z);
@@ -106,13 +119,26 @@ template <typename Real>
   return 3 * error * std::abs(weights.inverse_determinant) * double{z} * double{std::abs(scale_z)};
 }
 
+// The slab interval of a triangle's own padded box. The nearer plane is the one met first: no need
+// to ask for the direction's sign.
+[[nodiscard, gnu::always_inline]] inline SlabInterval own_interval(const PreparedRay& ray, Float4 a,
+                                                                   Float4 b, Float4 c) {
+  const Float4 low = min(a, min(b, c));
+  const Float4 high = max(a, max(b, c));
+  const float padding = triangle_padding * largest_of(max(abs(low), abs(high)));
+  const Float4 at_low = ((low - padding) - ray.plane_origin[0]) * ray.inverse;
+  const Float4 at_high = ((high + padding) - ray.plane_origin[1]) * ray.inverse;
+  return {std::max(0.0F, largest_of(min(at_low, at_high))), smallest_of(max(at_low, at_high))};
+}
+
 // Parts 2 to 4 of the rule, for the few triangles that pass the signs of part 1.
-[[nodiscard]] inline bool accept(const PreparedRay& ray, const Triangle& triangle,
-                                 const ShearedVertex& p, const ShearedVertex& q,
-                                 const ShearedVertex& r, const EdgeFunctions<float>& edge,
-                                 float t_limit, TriangleHit& hit) {
+[[nodiscard, gnu::always_inline]] inline bool accept(const PreparedRay& ray,
+                                                     const SlabInterval& interval,
+                                                     const ShearedVertex& p, const ShearedVertex& q,
+                                                     const ShearedVertex& r,
+                                                     const EdgeFunctions<float>& edge,
+                                                     float t_limit, TriangleHit& hit) {
   // First, because it is cheap and rejects what is behind the origin or beyond the limit.
-  const SlabInterval interval = intersect_box(ray, padded(triangle.bounds()));
   if (!(interval.near <= std::min(interval.far, t_limit))) return false;
 
   // Doubles decide zeros, and take over where float would lose digits at the ends of its range.
@@ -141,23 +167,30 @@ template <typename Real>
 
 // Whether the ray hits the triangle at a t of at most `t_limit`; `hit` holds rubbish if not. The
 // caller decides ties.
-[[nodiscard]] inline bool intersect_triangle(const PreparedRay& ray, const Triangle& triangle,
-                                             float t_limit, TriangleHit& hit) {
+[[nodiscard, gnu::always_inline]] inline bool intersect_triangle(const PreparedRay& ray,
+                                                                 const Triangle& triangle,
+                                                                 float t_limit, TriangleHit& hit) {
   const detail::ShearedVertex p = detail::shear(ray, triangle.a);
   const detail::ShearedVertex q = detail::shear(ray, triangle.b);
   const detail::ShearedVertex r = detail::shear(ray, triangle.c);
   const detail::EdgeFunctions<float> edge(p, q, r);
   if (edge.mixed_signs()) return false;
-  return detail::accept(ray, triangle, p, q, r, edge, t_limit, hit);
+  const SlabInterval interval =
+      detail::own_interval(ray, float4(triangle.a), float4(triangle.b), float4(triangle.c));
+  return detail::accept(ray, interval, p, q, r, edge, t_limit, hit);
 }
 
-// Keeps the nearer of `best` and the triangle's hit, if any: the lower index where t is equal.
-// `best` starts out as no triangle at the ray's t_max.
+// Keeps the nearer of `best` and a hit at no larger t: the lower index where t is equal.
+[[gnu::always_inline]] inline void keep_nearer(const TriangleHit& hit, std::uint32_t index,
+                                               Hit& best) {
+  if (hit.t < best.t || index < best.triangle) best = {hit.t, hit.u, hit.v, index};
+}
+
+// The same for a triangle's hit, if any. `best` starts out as no triangle at the ray's t_max.
 inline void update_nearest(const PreparedRay& ray, const Triangle& triangle, std::uint32_t index,
                            Hit& best) {
   TriangleHit hit;
-  if (!intersect_triangle(ray, triangle, best.t, hit)) return;
-  if (hit.t < best.t || index < best.triangle) best = {hit.t, hit.u, hit.v, index};
+  if (intersect_triangle(ray, triangle, best.t, hit)) keep_nearer(hit, index, best);
 }
 
 }  // namespace pah
