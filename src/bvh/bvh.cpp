@@ -93,6 +93,9 @@ class Collapser {
           block.vertices[2][axis][lane] = triangle.c[axis];
         }
         block.indices[lane] = index;
+        const Aabb b = triangle.bounds();
+        block.padding[lane] =
+            triangle_padding * largest_of(glm::max(glm::abs(b.min), glm::abs(b.max)));
       }
     }
     return ChildRef::leaf(first_block, leaf.count);

@@ -5,6 +5,9 @@
 // foreach_target.h comes first.
 #include <hwy/cache_control.h>
 #include <hwy/highway.h>
+#include <algorithm>
+#include <bit>
+#include <limits>
 #include <utility>
 
 #include "bvh/bvh.hpp"
@@ -72,36 +75,35 @@ struct NodeRay {
   }
 };
 
-// Triangles as a ray sees them.
-struct ShearedBlock {
-  HWY_ALIGN float vertices[3][3][TriangleBlock::width];
+// Triangles as a ray sees them, side by side.
+struct SeenBlock {
+  HWY_ALIGN float vertices[3][3][TriangleBlock::width];  // sheared
   HWY_ALIGN float edges[3][TriangleBlock::width];
+  HWY_ALIGN float near[TriangleBlock::width];  // their own intervals
+  HWY_ALIGN float far[TriangleBlock::width];
 
   [[nodiscard]] HWY_INLINE detail::ShearedVertex vertex(std::size_t k, std::size_t lane) const {
     return {vertices[k][0][lane], vertices[k][1][lane], vertices[k][2][lane]};
   }
   // The rest of the rule for one of them.
-  HWY_INLINE bool accept(const PreparedRay& ray, const TriangleBlock& block, std::size_t lane,
-                         float t_limit, TriangleHit& hit) const {
-    const auto corner = [&](std::size_t k) {
-      const auto& v = block.vertices[k];
-      return Float4{v[0][lane], v[1][lane], v[2][lane], 0};
-    };
+  HWY_INLINE bool accept(const PreparedRay& ray, std::size_t lane, float t_limit,
+                         TriangleHit& hit) const {
     return detail::accept(
-        ray, detail::own_interval(ray, corner(0), corner(1), corner(2)), vertex(0, lane),
-        vertex(1, lane), vertex(2, lane),
+        ray, {near[lane], far[lane]}, vertex(0, lane), vertex(1, lane), vertex(2, lane),
         detail::EdgeFunctions<float>(edges[0][lane], edges[1][lane], edges[2][lane]), t_limit, hit);
   }
 };
 
-// A ray as triangles are tested with it.
+// A ray as triangles are tested with it: by the formulas of ray_triangle.hpp, side by side.
 struct TriangleRay {
   using D = hn::CappedTag<float, TriangleBlock::width>;
-  hn::Vec<D> origin[3];
-  hn::Vec<D> shear[2];
+  using V = hn::Vec<D>;
+  const PreparedRay& ray;
+  V origin[3];
+  V shear[2];
   std::size_t axes[3];  // where in a vertex, in floats
 
-  HWY_INLINE explicit TriangleRay(const PreparedRay& ray) {
+  HWY_INLINE explicit TriangleRay(const PreparedRay& prepared) : ray(prepared) {
     const D d;
     for (int i = 0; i < 3; ++i) {
       origin[i] = hn::Set(d, ray.origin[i]);
@@ -111,47 +113,102 @@ struct TriangleRay {
     shear[1] = hn::Set(d, ray.shear_y);
   }
 
-  // Which triangles pass the signs of the edge functions: the formulas of ray_triangle.hpp, side by
-  // side. Survivors are few, and the rest of the shared rule decides them.
-  HWY_INLINE std::uint32_t maybe_hit(const TriangleBlock& block, ShearedBlock& sheared) const {
+  // Which triangles pass the signs of the edge functions and have an interval within the limit.
+  // They are few, and the rest of the shared rule decides them.
+  HWY_INLINE std::uint32_t maybe_hit(const TriangleBlock& block, float limit,
+                                     SeenBlock& seen) const {
     const D d;
-    const auto zero = hn::Zero(d);
     std::uint32_t hits = 0;
     for (std::size_t lane = 0; lane < TriangleBlock::width; lane += hn::Lanes(d)) {
-      hn::Vec<D> x[3];
-      hn::Vec<D> y[3];
-      hn::Vec<D> z[3];
+      V x[3];
+      V y[3];
+      V z[3];
       for (int k = 0; k < 3; ++k) {
         const float* vertex = block.vertices[k][0] + lane;
         z[k] = hn::Sub(hn::Load(d, vertex + axes[2]), origin[2]);
         x[k] = hn::Sub(hn::Sub(hn::Load(d, vertex + axes[0]), origin[0]), hn::Mul(shear[0], z[k]));
         y[k] = hn::Sub(hn::Sub(hn::Load(d, vertex + axes[1]), origin[1]), hn::Mul(shear[1], z[k]));
       }
-      const auto a = hn::Sub(hn::Mul(x[2], y[1]), hn::Mul(y[2], x[1]));
-      const auto b = hn::Sub(hn::Mul(x[0], y[2]), hn::Mul(y[0], x[2]));
-      const auto c = hn::Sub(hn::Mul(x[1], y[0]), hn::Mul(y[1], x[0]));
-      const auto least = hn::Min(hn::Min(a, b), c);
-      const auto most = hn::Max(hn::Max(a, b), c);
-      const std::uint32_t some = bits(d, hn::Not(hn::And(hn::Lt(least, zero), hn::Gt(most, zero))));
+      const V a = hn::Sub(hn::Mul(x[2], y[1]), hn::Mul(y[2], x[1]));
+      const V b = hn::Sub(hn::Mul(x[0], y[2]), hn::Mul(y[0], x[2]));
+      const V c = hn::Sub(hn::Mul(x[1], y[0]), hn::Mul(y[1], x[0]));
+      const V least = hn::Min(hn::Min(a, b), c);
+      const V most = hn::Max(hn::Max(a, b), c);
+      const auto mixed = hn::And(hn::Lt(least, hn::Zero(d)), hn::Gt(most, hn::Zero(d)));
+      if (hn::AllTrue(d, mixed)) continue;
+      V near = hn::Zero(d);
+      V far = hn::Set(d, std::numeric_limits<float>::infinity());
+      narrow(block, lane, near, far);
+      const auto meets = hn::Le(near, hn::Min(far, hn::Set(d, limit)));
+      const std::uint32_t some = bits(d, hn::AndNot(mixed, meets));
       if (some == 0) continue;
       hits |= some << lane;
       for (int k = 0; k < 3; ++k) {
-        hn::Store(x[k], d, sheared.vertices[k][0] + lane);
-        hn::Store(y[k], d, sheared.vertices[k][1] + lane);
-        hn::Store(z[k], d, sheared.vertices[k][2] + lane);
+        hn::Store(x[k], d, seen.vertices[k][0] + lane);
+        hn::Store(y[k], d, seen.vertices[k][1] + lane);
+        hn::Store(z[k], d, seen.vertices[k][2] + lane);
       }
-      hn::Store(a, d, sheared.edges[0] + lane);
-      hn::Store(b, d, sheared.edges[1] + lane);
-      hn::Store(c, d, sheared.edges[2] + lane);
+      hn::Store(a, d, seen.edges[0] + lane);
+      hn::Store(b, d, seen.edges[1] + lane);
+      hn::Store(c, d, seen.edges[2] + lane);
+      hn::Store(near, d, seen.near + lane);
+      hn::Store(far, d, seen.far + lane);
     }
     return hits;
   }
+
+ private:
+  // To the ray's intervals of the triangles' own padded boxes.
+  HWY_INLINE void narrow(const TriangleBlock& block, std::size_t lane, V& near, V& far) const {
+    const D d;
+    V low[3];
+    V high[3];
+    for (int axis = 0; axis < 3; ++axis) {
+      const V p = hn::Load(d, block.vertices[0][axis] + lane);
+      const V q = hn::Load(d, block.vertices[1][axis] + lane);
+      const V r = hn::Load(d, block.vertices[2][axis] + lane);
+      low[axis] = hn::Min(p, hn::Min(q, r));
+      high[axis] = hn::Max(p, hn::Max(q, r));
+    }
+    const V padding = hn::Load(d, block.padding + lane);
+    for (int axis = 0; axis < 3; ++axis) {
+      const V inverse = hn::Set(d, ray.inverse[axis]);
+      const V below = hn::Sub(low[axis], padding);
+      const V above = hn::Add(high[axis], padding);
+      const V at_low = hn::Mul(hn::Sub(below, hn::Set(d, ray.plane_origin[0][axis])), inverse);
+      const V at_high = hn::Mul(hn::Sub(above, hn::Set(d, ray.plane_origin[1][axis])), inverse);
+      near = hn::Max(near, hn::Min(at_low, at_high));
+      far = hn::Min(far, hn::Max(at_low, at_high));
+    }
+  }
 };
 
-struct Entry {
-  ChildRef child;
-  float near;
+// A child that waits, as a number: those that are nearer are less.
+class Entry {
+ public:
+  Entry() = default;  // without a value: stacks hold hundreds
+  Entry(float near, ChildRef child)
+      : bits_(std::uint64_t{std::bit_cast<std::uint32_t>(near)} << 32U |
+              std::bit_cast<std::uint32_t>(child)) {}
+  [[nodiscard]] float near() const {
+    return std::bit_cast<float>(static_cast<std::uint32_t>(bits_ >> 32U));
+  }
+  [[nodiscard]] ChildRef child() const {
+    return std::bit_cast<ChildRef>(static_cast<std::uint32_t>(bits_));
+  }
+  friend bool operator<(Entry a, Entry b) { return a.bits_ < b.bits_; }
+
+ private:
+  std::uint64_t bits_;
 };
+
+// Without a branch, which nobody could predict.
+HWY_INLINE void order(Entry& nearer, Entry& farther) {
+  const Entry a = nearer;
+  const Entry b = farther;
+  nearer = std::min(a, b);
+  farther = std::max(a, b);
+}
 
 // Enough for a path to the deepest leaf with all siblings waiting.
 inline constexpr std::size_t stack_size = (BvhNode::width - 1) * max_depth + BvhNode::width;
@@ -178,7 +235,7 @@ HWY_INLINE void closest(const Bvh& bvh, const PreparedRay& ray, Hit& best,
                         TraversalCounts& counts) {
   const NodeRay nodes(ray);
   const TriangleRay triangles(ray);
-  ShearedBlock sheared;
+  SeenBlock seen;
   HWY_ALIGN float near[BvhNode::width];
   Entry stack[stack_size];
   Entry* top = stack;
@@ -191,20 +248,34 @@ HWY_INLINE void closest(const Bvh& bvh, const PreparedRay& ray, Hit& best,
       std::uint32_t hits = nodes.meet_children(node, best.t, near);
       if (hits != 0) {
         // Goes on with the nearest; the others wait, the nearest of them on top.
-        std::uint32_t k = lowest_bit(hits);
-        Entry nearest{node.children[k], near[k]};
-        prefetch(bvh, nearest.child);
-        Entry* const bottom = top;
-        for (hits &= hits - 1; hits != 0; hits &= hits - 1) {
-          k = lowest_bit(hits);
-          Entry entry{node.children[k], near[k]};
-          prefetch(bvh, entry.child);
-          if (entry.near < nearest.near) std::swap(entry, nearest);
-          Entry* place = top++;
-          for (; place > bottom && place[-1].near < entry.near; --place) *place = place[-1];
-          *place = entry;
+        const auto next = [&] {
+          const std::uint32_t k = lowest_bit(hits);
+          hits &= hits - 1;
+          return Entry(near[k], node.children[k]);
+        };
+        Entry nearest = next();
+        if (hits != 0) {
+          Entry second = next();
+          order(nearest, second);
+          if (hits == 0) {
+            *top++ = second;
+          } else {
+            Entry third = next();
+            order(second, third);
+            order(nearest, second);
+            Entry* const bottom = top;
+            *top++ = third;
+            *top++ = second;
+            while (hits != 0) {
+              Entry entry = next();
+              order(nearest, entry);
+              Entry* place = top++;
+              for (; place > bottom && place[-1] < entry; --place) *place = place[-1];
+              *place = entry;
+            }
+          }
         }
-        current = nearest.child;
+        current = nearest.child();
         continue;
       }
     } else {
@@ -213,12 +284,11 @@ HWY_INLINE void closest(const Bvh& bvh, const PreparedRay& ray, Hit& best,
       const TriangleBlock* block = &bvh.blocks[current.first_block()];
       for (std::uint32_t begin = 0; begin < count; begin += TriangleBlock::width, ++block) {
         if (counting) ++counts.blocks;
-        for (std::uint32_t hits = triangles.maybe_hit(*block, sheared); hits != 0;
+        for (std::uint32_t hits = triangles.maybe_hit(*block, best.t, seen); hits != 0;
              hits &= hits - 1) {
           const std::uint32_t lane = lowest_bit(hits);
           TriangleHit hit;
-          if (sheared.accept(ray, *block, lane, best.t, hit))
-            keep_nearer(hit, block->indices[lane], best);
+          if (seen.accept(ray, lane, best.t, hit)) keep_nearer(hit, block->indices[lane], best);
         }
       }
     }
@@ -226,8 +296,8 @@ HWY_INLINE void closest(const Bvh& bvh, const PreparedRay& ray, Hit& best,
     do {
       if (top == stack) return;
       --top;
-    } while (top->near > best.t);
-    current = top->child;
+    } while (top->near() > best.t);
+    current = top->child();
   }
 }
 
@@ -235,29 +305,32 @@ template <bool counting>
 HWY_INLINE bool any(const Bvh& bvh, const PreparedRay& ray, TraversalCounts& counts) {
   const NodeRay nodes(ray);
   const TriangleRay triangles(ray);
-  ShearedBlock sheared;
+  SeenBlock seen;
   HWY_ALIGN float near[BvhNode::width];
-  ChildRef stack[stack_size];
-  ChildRef* top = stack;
-  *top++ = ChildRef::inner(0);
+  std::uint32_t stack[stack_size];
+  std::uint32_t* top = stack;
+  *top++ = 0;
   while (top != stack) {
-    const ChildRef child = *--top;
+    const BvhNode& node = bvh.nodes[*--top];
     if (counting) ++counts.nodes;
-    if (!child.is_leaf()) {
-      if (counting) ++counts.inner_nodes;
-      const BvhNode& node = bvh.nodes[child.node()];
-      std::uint32_t hits = nodes.meet_children(node, ray.t_max, near);
-      for (; hits != 0; hits &= hits - 1) *top++ = node.children[lowest_bit(hits)];
-      continue;
-    }
-    const std::uint32_t count = child.triangles();
-    if (counting) counts.triangles += count;
-    const TriangleBlock* block = &bvh.blocks[child.first_block()];
-    for (std::uint32_t begin = 0; begin < count; begin += TriangleBlock::width, ++block) {
-      if (counting) ++counts.blocks;
-      TriangleHit hit;
-      for (std::uint32_t hits = triangles.maybe_hit(*block, sheared); hits != 0; hits &= hits - 1) {
-        if (sheared.accept(ray, *block, lowest_bit(hits), ray.t_max, hit)) return true;
+    if (counting) ++counts.inner_nodes;
+    for (std::uint32_t met = nodes.meet_children(node, ray.t_max, near); met != 0; met &= met - 1) {
+      const ChildRef child = node.children[lowest_bit(met)];
+      if (!child.is_leaf()) {
+        *top++ = child.node();
+        continue;
+      }
+      const std::uint32_t count = child.triangles();
+      if (counting) ++counts.nodes;
+      if (counting) counts.triangles += count;
+      const TriangleBlock* block = &bvh.blocks[child.first_block()];
+      for (std::uint32_t begin = 0; begin < count; begin += TriangleBlock::width, ++block) {
+        if (counting) ++counts.blocks;
+        TriangleHit hit;
+        for (std::uint32_t hits = triangles.maybe_hit(*block, ray.t_max, seen); hits != 0;
+             hits &= hits - 1) {
+          if (seen.accept(ray, lowest_bit(hits), ray.t_max, hit)) return true;
+        }
       }
     }
   }
