@@ -19,6 +19,7 @@
 #include "cli/film_size.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/memory.hpp"
+#include "cli/summary.hpp"
 #include "cli/warnings.hpp"
 #include "io/extension.hpp"
 #include "io/output_file.hpp"
@@ -141,12 +142,6 @@ RenderResult render_with_progress(const World& world, const Accelerator& acceler
   return render(world, accelerator, scene.film, scene.render, options);
 }
 
-std::uint64_t total_rays(const RenderCounts& counts) {
-  std::uint64_t total = 0;
-  for (const std::uint64_t rays : counts.rays) total += rays;
-  return total;
-}
-
 void write_picture(const fs::path& file, const RenderResult& result, const Scene& scene,
                    const std::string& hash, const RenderArguments& arguments) {
   WriteOptions options;
@@ -160,13 +155,6 @@ void write_picture(const fs::path& file, const RenderResult& result, const Scene
                       {"pahrender:seed", std::to_string(scene.render.seed)},
                       {"pahrender:seconds", fmt::format("{:.3f}", result.seconds)}};
   write_image(file, layers_of(result.film, scene.film), options);
-}
-
-void print_summary(const fs::path& file, const RenderResult& result, int samples_wanted) {
-  say(fmt::format("wrote {}: {}, {}{} samples, {}\n", file.string(),
-                  format_duration(result.seconds), result.samples,
-                  result.complete ? "" : fmt::format(" of {}", samples_wanted),
-                  format_ray_rate(total_rays(result.counts), result.seconds)));
 }
 
 }  // namespace
@@ -230,7 +218,7 @@ ExitCode run_render(const RenderArguments& arguments) {
   }
   write_picture(output, result, scene, loaded.hash, arguments);
   warn_of_faults(result, scene.film.exposure, output, warnings);
-  if (!arguments.quiet) print_summary(output, result, scene.render.samples);
+  if (!arguments.quiet) say(summary_of(output, result, scene.render.samples, total.seconds()));
 
   if (!arguments.stats.empty()) {
     report.version = PAHRENDER_VERSION;
@@ -238,6 +226,7 @@ ExitCode run_render(const RenderArguments& arguments) {
     report.width = scene.film.width;
     report.height = scene.film.height;
     report.samples = result.samples;
+    report.mean_samples = mean_samples(result.film);
     report.threads = threads;
     report.seed = scene.render.seed;
     report.accelerator = acceleration.name;
