@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <cstdio>
+#include <optional>
 #include <pah/image/clipping.hpp>
 #include <pah/io/image_file.hpp>
 #include <pah/io/load_scene.hpp>
@@ -19,6 +19,7 @@
 #include "cli/film_size.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/memory.hpp"
+#include "cli/progress.hpp"
 #include "cli/summary.hpp"
 #include "cli/warnings.hpp"
 #include "io/extension.hpp"
@@ -135,10 +136,15 @@ RenderResult render_with_progress(const World& world, const Accelerator& acceler
   if (arguments.time_limit > 0) options.time_limit = std::max(arguments.time_limit - spent, 1e-3);
   options.count_traversal = !arguments.stats.empty();
   options.stop = &stop_requested();
-  if (arguments.quiet || !ProgressBar::possible())
-    return render(world, accelerator, scene.film, scene.render, options);
-  ProgressBar bar(scene.render.samples);
-  options.on_progress = [&](const Progress& progress) { bar.show(progress); };
+  const RenderGoal goal{scene.render.samples, options.time_limit};
+  std::optional<ProgressBar> bar;
+  Heartbeat heartbeat(goal);
+  if (!arguments.quiet && can_redraw()) {
+    bar.emplace(goal);
+    options.on_progress = [&](const Progress& progress) { bar->show(progress); };
+  } else if (!arguments.quiet) {
+    options.on_progress = [&](const Progress& progress) { say(heartbeat.line(progress)); };
+  }
   return render(world, accelerator, scene.film, scene.render, options);
 }
 
