@@ -49,8 +49,14 @@ bool has_image_extension(const fs::path& file) {
 }
 
 fs::path output_of(const RenderArguments& arguments) {
-  if (arguments.output.empty()) return arguments.scene.stem().string() + ".png";
+  const std::string named_after_scene = arguments.scene.stem().string() + ".png";
+  if (arguments.output.empty()) return named_after_scene;
   if (has_image_extension(arguments.output)) return arguments.output;
+  std::error_code ignored;
+  if (!arguments.output.has_filename() || fs::is_directory(arguments.output, ignored))
+    throw UsageError(fmt::format("-o {} is a directory; name a file in it: {}",
+                                 arguments.output.string(),
+                                 (arguments.output / named_after_scene).string()));
   throw UsageError(fmt::format("cannot tell the format of {} by its extension; available are {}",
                                arguments.output.string(), fmt::join(image_extensions(), ", ")));
 }

@@ -59,6 +59,12 @@ TEST_CASE("wrong usage exits with 2 and says what is wrong") {
   check_failure({"scene.yaml", "-o"}, 2, "--output");
   check_failure({"scene.yaml", "-o", "out.xyz"}, 2, ".exr");
   check_failure({"scene.yaml", "-o", "out"}, 2, ".exr");
+  check_failure({"scene.yaml", "-o", "there.d/"}, 2,
+                "-o there.d/ is a directory; name a file in it: there.d/scene.png");
+  std::filesystem::create_directory("there");
+  check_failure({"scene.yaml", "-o", "there"}, 2,
+                "-o there is a directory; name a file in it: there/scene.png");
+  check_failure({"scene.yaml", "-o", "."}, 2, "name a file in it: ./scene.png");
   check_failure({"scene.yaml", "--accel", "magic"}, 2, "bvh, local, brute_force");
   check_failure({"scene.yaml", "--spp", "0"}, 2, "--spp");
   check_failure({"scene.yaml", "--spp", "many"}, 2, "--spp");
