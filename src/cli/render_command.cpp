@@ -132,10 +132,11 @@ bool is_same_file(const fs::path& a, const fs::path& b) {
          fs::weakly_canonical(fs::absolute(b), error);
 }
 
-// `spent` seconds of the time limit are gone.
+// `spent` seconds of the time limit are gone. `saving` begins with the first samples: until then
+// there is nothing that an interrupt should wait for.
 RenderResult render_with_progress(const World& world, const Accelerator& accelerator,
                                   const Scene& scene, const RenderArguments& arguments,
-                                  double spent) {
+                                  double spent, std::optional<SavingOnInterrupt>& saving) {
   RenderOptions options;
   options.threads = arguments.threads;
   // 0 would be none.
@@ -144,13 +145,15 @@ RenderResult render_with_progress(const World& world, const Accelerator& acceler
   options.stop = &stop_requested();
   const RenderGoal goal{scene.render.samples, options.time_limit};
   std::optional<ProgressBar> bar;
+  if (!arguments.quiet && can_redraw()) bar.emplace(goal);
   Heartbeat heartbeat(goal);
-  if (!arguments.quiet && can_redraw()) {
-    bar.emplace(goal);
-    options.on_progress = [&](const Progress& progress) { bar->show(progress); };
-  } else if (!arguments.quiet) {
-    options.on_progress = [&](const Progress& progress) { say(heartbeat.line(progress)); };
-  }
+  options.on_progress = [&](const Progress& progress) {
+    if (!saving) saving.emplace();
+    if (bar)
+      bar->show(progress);
+    else if (!arguments.quiet)
+      say(heartbeat.line(progress));
+  };
   return render(world, accelerator, scene.film, scene.render, options);
 }
 
@@ -215,9 +218,9 @@ ExitCode run_render(const RenderArguments& arguments) {
   warnings.add(warnings_of(acceleration, world, scene.film));
   if (warnings.failed()) return ExitCode::scene_error;
 
-  const SavingOnInterrupt saving;
-  const RenderResult result =
-      render_with_progress(world, *acceleration.accelerator, scene, arguments, total.seconds());
+  std::optional<SavingOnInterrupt> saving;
+  const RenderResult result = render_with_progress(world, *acceleration.accelerator, scene,
+                                                   arguments, total.seconds(), saving);
   const bool interrupted = stop_requested() && !result.complete;
   // Less than one sample for every pixel is better than nothing, but not than what there was.
   std::error_code ignored;
