@@ -1,6 +1,9 @@
 // The last line of a render.
 #include "cli/summary.hpp"
 
+#include <algorithm>
+#include <vector>
+
 #include "catch.hpp"
 
 using namespace pah;
