@@ -1,18 +1,24 @@
 #include "cli/console.hpp"
 
 #include <fmt/format.h>
-#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
+#include <string_view>
 
 namespace pah::cli {
 
 void say(const std::string& text) noexcept {
   std::fwrite(text.data(), 1, text.size(), stderr);
   std::fflush(stderr);
+}
+
+bool can_redraw() {
+  const char* const kind = std::getenv("TERM");
+  return ::isatty(STDERR_FILENO) == 1 && (kind == nullptr || std::string_view(kind) != "dumb");
 }
 
 std::string format_duration(double seconds) {
@@ -29,35 +35,5 @@ std::string format_ray_rate(std::uint64_t rays, double seconds) {
   if (rate >= 1e3) return fmt::format("{:.1f} krays/s", rate / 1e3);
   return fmt::format("{:.0f} rays/s", rate);
 }
-
-namespace {
-
-// In characters; a longer line would wrap, and could not be drawn over.
-std::size_t terminal_width() {
-  winsize size{};
-  return ::ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 1 ? size.ws_col : 80U;
-}
-
-}  // namespace
-
-bool ProgressBar::possible() { return ::isatty(STDERR_FILENO) == 1; }
-
-void ProgressBar::show(const Progress& progress) {
-  if (progress.seconds < next_) return;
-  next_ = progress.seconds + 0.1;
-  constexpr int bar_width = 20;
-  const int filled = std::clamp(static_cast<int>(progress.fraction * bar_width), 0, bar_width);
-  const std::string left =
-      progress.fraction > 0 ? format_duration(progress.seconds * (1 / progress.fraction - 1)) : "?";
-  std::string line =
-      fmt::format("[{}{}] {:.0f} %  {}, {} left  {}/{} samples  {}", std::string(filled, '#'),
-                  std::string(bar_width - filled, '.'), std::floor(100 * progress.fraction),
-                  format_duration(progress.seconds), left, progress.samples_finished, samples_,
-                  format_ray_rate(progress.rays, progress.seconds));
-  line.resize(std::min(line.size(), terminal_width() - 1));
-  say("\r" + line + "\x1b[K");
-}
-
-ProgressBar::~ProgressBar() { say("\r\x1b[K"); }
 
 }  // namespace pah::cli

@@ -1,6 +1,7 @@
 // The program: what the command line says, and how it ends.
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -8,6 +9,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <new>
 #include <pah/io/errors.hpp>
@@ -276,35 +278,56 @@ void hold_standard_streams() {
     if (::fcntl(stream, F_GETFD) == -1) (void)::open("/dev/null", O_RDONLY);
 }
 
+// Says what the exception that is being handled means.
+ExitCode report_exception() {
+  try {
+    throw;
+  } catch (const UsageError& error) {
+    say(fmt::format("pahrender: {}\nRun pahrender --help for what there is.\n", error.what()));
+    return ExitCode::wrong_usage;
+  } catch (const SceneError& errors) {
+    for (const LocatedError& error : errors.errors()) say(fmt::format("{}\n", format_error(error)));
+    return ExitCode::scene_error;
+  } catch (const TextureError& error) {  // found by loading, unless the file has changed since
+    say(fmt::format("pahrender: {}\n", error.what()));
+    return ExitCode::scene_error;
+  } catch (const FileError& error) {
+    say(fmt::format("pahrender: {}\n", error.what()));
+    return ExitCode::file_error;
+  } catch (const std::bad_alloc&) {
+    say("pahrender: out of memory\n");
+    return ExitCode::failed;
+  } catch (const std::exception& error) {
+    say(fmt::format("pahrender: {}\n", error.what()));
+    return ExitCode::failed;
+  }
+}
+
+// oneTBB throws where nobody can catch it if it is not given a thread.
+[[noreturn]] void end_without_catch() {
+  const std::exception_ptr error = std::current_exception();
+  if (!error) std::abort();
+  try {
+    std::rethrow_exception(error);
+  } catch (...) {
+    report_exception();
+  }
+  say("There may be too little memory for so many threads; see --threads.\n");
+  ::_exit(static_cast<int>(ExitCode::failed));
+}
+
 }  // namespace
 }  // namespace pah::cli
 
 int main(int argc, char** argv) {
-  using pah::cli::ExitCode;
-  const auto end = [](ExitCode code) { return static_cast<int>(code); };
   pah::cli::hold_standard_streams();
   pah::cli::outlive_failed_writes();
+  std::set_terminate(pah::cli::end_without_catch);
+  pah::cli::ExitCode code{};
   try {
-    return end(pah::cli::run(argc, argv));
-  } catch (const pah::cli::UsageError& error) {
-    pah::cli::say(
-        fmt::format("pahrender: {}\nRun pahrender --help for what there is.\n", error.what()));
-    return end(ExitCode::wrong_usage);
-  } catch (const pah::SceneError& errors) {
-    for (const pah::LocatedError& error : errors.errors())
-      pah::cli::say(fmt::format("{}\n", pah::format_error(error)));
-    return end(ExitCode::scene_error);
-  } catch (const pah::TextureError& error) {  // found by loading, unless the file has changed since
-    pah::cli::say(fmt::format("pahrender: {}\n", error.what()));
-    return end(ExitCode::scene_error);
-  } catch (const pah::FileError& error) {
-    pah::cli::say(fmt::format("pahrender: {}\n", error.what()));
-    return end(ExitCode::file_error);
-  } catch (const std::bad_alloc&) {
-    pah::cli::say("pahrender: out of memory\n");
-    return end(ExitCode::failed);
-  } catch (const std::exception& error) {
-    pah::cli::say(fmt::format("pahrender: {}\n", error.what()));
-    return end(ExitCode::failed);
+    code = pah::cli::run(argc, argv);
+  } catch (...) {
+    code = pah::cli::report_exception();
   }
+  return static_cast<int>(code);
 }

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <cstdio>
+#include <optional>
 #include <pah/image/clipping.hpp>
 #include <pah/io/image_file.hpp>
 #include <pah/io/load_scene.hpp>
@@ -19,6 +19,8 @@
 #include "cli/film_size.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/memory.hpp"
+#include "cli/progress.hpp"
+#include "cli/summary.hpp"
 #include "cli/warnings.hpp"
 #include "io/extension.hpp"
 #include "io/output_file.hpp"
@@ -47,8 +49,14 @@ bool has_image_extension(const fs::path& file) {
 }
 
 fs::path output_of(const RenderArguments& arguments) {
-  if (arguments.output.empty()) return arguments.scene.stem().string() + ".png";
+  const std::string named_after_scene = arguments.scene.stem().string() + ".png";
+  if (arguments.output.empty()) return named_after_scene;
   if (has_image_extension(arguments.output)) return arguments.output;
+  std::error_code ignored;
+  if (!arguments.output.has_filename() || fs::is_directory(arguments.output, ignored))
+    throw UsageError(fmt::format("-o {} is a directory; name a file in it: {}",
+                                 arguments.output.string(),
+                                 (arguments.output / named_after_scene).string()));
   throw UsageError(fmt::format("cannot tell the format of {} by its extension; available are {}",
                                arguments.output.string(), fmt::join(image_extensions(), ", ")));
 }
@@ -124,27 +132,29 @@ bool is_same_file(const fs::path& a, const fs::path& b) {
          fs::weakly_canonical(fs::absolute(b), error);
 }
 
-// `spent` seconds of the time limit are gone.
+// `spent` seconds of the time limit are gone. `saving` begins with the first samples: until then
+// there is nothing that an interrupt should wait for.
 RenderResult render_with_progress(const World& world, const Accelerator& accelerator,
                                   const Scene& scene, const RenderArguments& arguments,
-                                  double spent) {
+                                  double spent, std::optional<SavingOnInterrupt>& saving) {
   RenderOptions options;
   options.threads = arguments.threads;
   // 0 would be none.
   if (arguments.time_limit > 0) options.time_limit = std::max(arguments.time_limit - spent, 1e-3);
   options.count_traversal = !arguments.stats.empty();
   options.stop = &stop_requested();
-  if (arguments.quiet || !ProgressBar::possible())
-    return render(world, accelerator, scene.film, scene.render, options);
-  ProgressBar bar(scene.render.samples);
-  options.on_progress = [&](const Progress& progress) { bar.show(progress); };
+  const RenderGoal goal{scene.render.samples, options.time_limit};
+  std::optional<ProgressBar> bar;
+  if (!arguments.quiet && can_redraw()) bar.emplace(goal);
+  Heartbeat heartbeat(goal);
+  options.on_progress = [&](const Progress& progress) {
+    if (!saving) saving.emplace();
+    if (bar)
+      bar->show(progress);
+    else if (!arguments.quiet)
+      say(heartbeat.line(progress));
+  };
   return render(world, accelerator, scene.film, scene.render, options);
-}
-
-std::uint64_t total_rays(const RenderCounts& counts) {
-  std::uint64_t total = 0;
-  for (const std::uint64_t rays : counts.rays) total += rays;
-  return total;
 }
 
 void write_picture(const fs::path& file, const RenderResult& result, const Scene& scene,
@@ -160,13 +170,6 @@ void write_picture(const fs::path& file, const RenderResult& result, const Scene
                       {"pahrender:seed", std::to_string(scene.render.seed)},
                       {"pahrender:seconds", fmt::format("{:.3f}", result.seconds)}};
   write_image(file, layers_of(result.film, scene.film), options);
-}
-
-void print_summary(const fs::path& file, const RenderResult& result, int samples_wanted) {
-  say(fmt::format("wrote {}: {}, {}{} samples, {}\n", file.string(),
-                  format_duration(result.seconds), result.samples,
-                  result.complete ? "" : fmt::format(" of {}", samples_wanted),
-                  format_ray_rate(total_rays(result.counts), result.seconds)));
 }
 
 }  // namespace
@@ -215,9 +218,9 @@ ExitCode run_render(const RenderArguments& arguments) {
   warnings.add(warnings_of(acceleration, world, scene.film));
   if (warnings.failed()) return ExitCode::scene_error;
 
-  const SavingOnInterrupt saving;
-  const RenderResult result =
-      render_with_progress(world, *acceleration.accelerator, scene, arguments, total.seconds());
+  std::optional<SavingOnInterrupt> saving;
+  const RenderResult result = render_with_progress(world, *acceleration.accelerator, scene,
+                                                   arguments, total.seconds(), saving);
   const bool interrupted = stop_requested() && !result.complete;
   // Less than one sample for every pixel is better than nothing, but not than what there was.
   std::error_code ignored;
@@ -230,7 +233,7 @@ ExitCode run_render(const RenderArguments& arguments) {
   }
   write_picture(output, result, scene, loaded.hash, arguments);
   warn_of_faults(result, scene.film.exposure, output, warnings);
-  if (!arguments.quiet) print_summary(output, result, scene.render.samples);
+  if (!arguments.quiet) say(summary_of(output, result, scene.render.samples, total.seconds()));
 
   if (!arguments.stats.empty()) {
     report.version = PAHRENDER_VERSION;
@@ -238,6 +241,7 @@ ExitCode run_render(const RenderArguments& arguments) {
     report.width = scene.film.width;
     report.height = scene.film.height;
     report.samples = result.samples;
+    report.mean_samples = mean_samples(result.film);
     report.threads = threads;
     report.seed = scene.render.seed;
     report.accelerator = acceleration.name;

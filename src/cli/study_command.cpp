@@ -109,7 +109,7 @@ ExitCode run_study(const StudyArguments& arguments) {
   config.seed = arguments.seed;
   if (config.quick) config.rays = 5'000;
   if (arguments.rays > 0) config.rays = arguments.rays;
-  const bool terminal = ProgressBar::possible();
+  const bool terminal = can_redraw();
   const StudyResults results =
       pah::run_study(load_all(arguments.files), config,
                      terminal ? show_progress : std::function<void(double, const std::string&)>{});

@@ -47,6 +47,14 @@ Image depth_of(const Film& film) {
 
 Image variance_of(const Film& film) { return image_of(film, variance_of_mean); }
 
+double mean_samples(const Film& film) {
+  std::uint64_t samples = 0;
+  for (const FilmPixel& pixel : film.pixels) samples += pixel.samples;
+  return film.pixels.empty()
+             ? 0
+             : static_cast<double>(samples) / static_cast<double>(film.pixels.size());
+}
+
 ErrorEstimate estimate_error(const Film& film) {
   double mse = 0;
   double relmse = 0;

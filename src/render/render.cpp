@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <mutex>
 #include <numeric>
@@ -77,6 +78,12 @@ RenderResult render(const World& world, const Accelerator& accelerator, const Fi
   const auto stopped = [&] { return options.stop != nullptr && options.stop->load(); };
 
   RenderResult result;
+  // A picture with holes would be of no use: every pixel gets one sample.
+  const auto out_of_time = [&] {
+    return options.time_limit > 0 && result.samples > 0 &&
+           seconds_since(start) >= options.time_limit;
+  };
+  std::atomic<bool> stop_pass = false;
   while (result.samples < settings.samples && !stopped()) {
     const int count =
         next_pass(result.samples, settings.samples, seconds_since(start), options.time_limit);
@@ -87,9 +94,9 @@ RenderResult render(const World& world, const Accelerator& accelerator, const Fi
                            static_cast<std::uint64_t>(rect.height()) *
                            static_cast<std::uint64_t>(count);
       reporter.tile_done(samples, tile.rays, result.samples);
+      if (stopped() || out_of_time()) stop_pass = true;
     };
-    const auto finished =
-        session.render_pass(all, result.samples, count, {options.stop, tile_done});
+    const auto finished = session.render_pass(all, result.samples, count, {&stop_pass, tile_done});
     if (finished.size() < all.size()) break;
     result.samples += count;
     reporter.pass_done(result.samples);

@@ -67,6 +67,7 @@ std::string stats_json(const RenderReport& report) {
       {"width", report.width},
       {"height", report.height},
       {"samples", report.samples},
+      {"mean_samples", report.mean_samples},
       {"threads", report.threads},
       {"seed", report.seed},
       {"accelerator", report.accelerator},

@@ -30,7 +30,8 @@ struct RenderReport {
   std::string version;
   std::string scene;  // as it was named
   int width = 0, height = 0;
-  int samples = 0;  // per pixel, finished by every pixel
+  int samples = 0;          // per pixel, finished by every pixel
+  double mean_samples = 0;  // per pixel
   int threads = 0;
   std::uint64_t seed = 0;
   std::string accelerator;

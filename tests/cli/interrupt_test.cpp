@@ -1,7 +1,9 @@
 // Ctrl-C, SIGTERM, and the progress bar, which tells when there is something to interrupt.
 #include <signal.h>
 
+#include <chrono>
 #include <pah/io/image_file.hpp>
+#include <thread>
 
 #include "catch.hpp"
 #include "program.hpp"
@@ -80,6 +82,27 @@ TEST_CASE("an interrupt before every pixel has a sample leaves an old picture as
   CHECK(outcome.exit_code == 130);
   CHECK(outcome.err.find("out.exr is as it was") != std::string::npos);
   CHECK(read_file("out.exr") == "an old picture");
+}
+
+TEST_CASE("an interrupt before anything is rendered ends the program at once") {
+  using Clock = std::chrono::steady_clock;
+  using std::chrono::milliseconds;
+  const CurrentTemporaryFolder folder;
+  write_file("scene.yaml", small_scene);
+  write_file("out.exr", "an old picture");
+  for (const int number : {SIGINT, SIGTERM}) {
+    // The film alone takes longer to make.
+    Program program({"scene.yaml", "-o", "out.exr", "--width", "4096", "--height", "4096"});
+    std::this_thread::sleep_for(milliseconds(300));
+    program.signal(number);
+    const Clock::time_point signaled = Clock::now();
+    const Outcome outcome = program.wait();
+    INFO(outcome.err);
+    CHECK(Clock::now() - signaled < milliseconds(500));
+    CHECK(outcome.exit_code == 130);
+    CHECK(read_file("out.exr") == "an old picture");
+    CHECK(files() == Words{"out.exr", "scene.yaml"});
+  }
 }
 
 TEST_CASE("the time limit counts loading and building too") {

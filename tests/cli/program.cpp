@@ -62,7 +62,8 @@ Program::Program(const std::vector<std::string>& arguments, ErrorStream stream) 
   const int in = ::open("/dev/null", O_RDONLY);
   const int out = ::open("stdout", O_WRONLY | O_CREAT | O_TRUNC, 0600);
   int error = -1;
-  if (stream == ErrorStream::terminal) {
+  const bool dumb = stream == ErrorStream::dumb_terminal;
+  if (dumb || stream == ErrorStream::terminal) {
     terminal_ = ::posix_openpt(O_RDWR | O_NOCTTY);
     if (terminal_ >= 0 && ::grantpt(terminal_) == 0 && ::unlockpt(terminal_) == 0)
       error = ::open(::ptsname(terminal_), O_RDWR | O_NOCTTY);
@@ -82,6 +83,7 @@ Program::Program(const std::vector<std::string>& arguments, ErrorStream stream) 
     ::dup2(error, STDERR_FILENO);
     for (const int file : {in, out, error, terminal_})
       if (file > STDERR_FILENO) ::close(file);
+    ::setenv("TERM", dumb ? "dumb" : "xterm", 1);
     if (stream == ErrorStream::closed) ::close(STDERR_FILENO);
     ::execv(pointers[0], pointers.data());
     ::_exit(127);

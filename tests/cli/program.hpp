@@ -19,7 +19,8 @@ struct Outcome {
   std::string out, err;
 };
 
-enum class ErrorStream { file, terminal, full, closed };
+// A terminal that is dumb says so by TERM: it can only print.
+enum class ErrorStream { file, terminal, dumb_terminal, full, closed };
 
 // A running program. Its streams go to files in the current folder.
 class Program {

@@ -52,7 +52,7 @@ TEST_CASE("a render writes its picture, says so, and leaves stdout alone") {
   INFO(outcome.err);
   CHECK(outcome.exit_code == 0);
   CHECK(outcome.out.empty());
-  CHECK(outcome.err.starts_with("wrote out.exr: "));
+  CHECK(outcome.err.starts_with("wrote out.exr: 32 x 24, 4 samples, "));
   CHECK(outcome.err.find("4 samples") != std::string::npos);
   CHECK(outcome.err.find("rays/s") != std::string::npos);
   CHECK(std::ranges::count(outcome.err, '\n') == 1);
@@ -149,7 +149,7 @@ TEST_CASE("switch --stats has every key of the contract, of the right type") {
         "/traversal/nodes_per_ray/camera", "/traversal/nodes_per_ray/shadow",
         "/traversal/nodes_per_ray/bounce", "/traversal/triangles_per_ray/camera",
         "/traversal/triangles_per_ray/shadow", "/traversal/triangles_per_ray/bounce", "/error/mse",
-        "/error/relmse", "/error/confidence95/0", "/error/confidence95/1"}) {
+        "/error/relmse", "/mean_samples", "/error/confidence95/0", "/error/confidence95/1"}) {
     CAPTURE(key);
     CHECK(at(key).is_number_float());
   }
@@ -163,6 +163,7 @@ TEST_CASE("switch --stats has every key of the contract, of the right type") {
   CHECK(at("/traversal/triangles_per_ray/camera") > 0);
   CHECK(at("/memory_bytes/global_bvh") > 0);
   CHECK(at("/nan_samples") == 0);
+  CHECK(at("/mean_samples") == 4);
   CHECK(at("/error/confidence95/0") <= at("/error/relmse"));
   CHECK(at("/error/relmse") <= at("/error/confidence95/1"));
   CHECK(at("/seconds/render") <= at("/seconds/total"));

@@ -59,6 +59,12 @@ TEST_CASE("wrong usage exits with 2 and says what is wrong") {
   check_failure({"scene.yaml", "-o"}, 2, "--output");
   check_failure({"scene.yaml", "-o", "out.xyz"}, 2, ".exr");
   check_failure({"scene.yaml", "-o", "out"}, 2, ".exr");
+  check_failure({"scene.yaml", "-o", "there.d/"}, 2,
+                "-o there.d/ is a directory; name a file in it: there.d/scene.png");
+  std::filesystem::create_directory("there");
+  check_failure({"scene.yaml", "-o", "there"}, 2,
+                "-o there is a directory; name a file in it: there/scene.png");
+  check_failure({"scene.yaml", "-o", "."}, 2, "name a file in it: ./scene.png");
   check_failure({"scene.yaml", "--accel", "magic"}, 2, "bvh, local, brute_force");
   check_failure({"scene.yaml", "--spp", "0"}, 2, "--spp");
   check_failure({"scene.yaml", "--spp", "many"}, 2, "--spp");
@@ -184,19 +190,39 @@ TEST_CASE("outputs that would harm one another or a device are refused") {
 #endif
 #endif
 #ifndef PAH_UNLIMITED_ADDRESSES
-TEST_CASE("a film that memory has no room for is refused in plain words") {
-  const CurrentTemporaryFolder folder;
-  write_file("scene.yaml", small_scene);
+namespace {
+
+// With so many bytes of addresses.
+Outcome run_within(rlim_t bytes, const Words& arguments) {
   rlimit before{};
   REQUIRE(::getrlimit(RLIMIT_AS, &before) == 0);
   rlimit less = before;
-  less.rlim_cur = 4'000'000'000;
+  less.rlim_cur = bytes;
   REQUIRE(::setrlimit(RLIMIT_AS, &less) == 0);
-  const Outcome outcome =
-      run({"scene.yaml", "-o", "a.png", "--width", "16384", "--height", "8192"});
+  Outcome outcome = run(arguments);
   REQUIRE(::setrlimit(RLIMIT_AS, &before) == 0);
+  return outcome;
+}
+
+}  // namespace
+
+TEST_CASE("a film that memory has no room for is refused in plain words") {
+  const CurrentTemporaryFolder folder;
+  write_file("scene.yaml", small_scene);
+  const Outcome outcome = run_within(
+      4'000'000'000, {"scene.yaml", "-o", "a.png", "--width", "16384", "--height", "8192"});
   INFO(outcome.err);
   CHECK(outcome.exit_code == 1);
   CHECK(contains(outcome.err, "a film of 16384 x 8192 pixels takes 18.3 GB of memory, and "));
+}
+
+TEST_CASE("threads that memory has no room for end the program, and do not abort it") {
+  const CurrentTemporaryFolder folder;
+  write_file("scene.yaml", small_scene);
+  const Outcome outcome = run_within(
+      2'000'000'000, {"scene.yaml", "-o", "a.png", "--width", "2048", "--threads", "1024"});
+  INFO(outcome.err);
+  CHECK(outcome.exit_code == 1);
+  CHECK(contains(outcome.err, "see --threads"));
 }
 #endif

@@ -1,4 +1,7 @@
 // What may change a picture's noise must not change its mean.
+#include <chrono>
+#include <thread>
+
 #include "analytic_scenes.hpp"
 #include "catch.hpp"
 
@@ -180,4 +183,24 @@ TEST_CASE("a time limit ends a render after whole passes") {
   for (const FilmPixel& pixel : result.film.pixels) {
     CHECK(pixel.samples + result.counts.nan_samples >= static_cast<unsigned>(result.samples));
   }
+}
+
+TEST_CASE("a time limit ends a render in the midst of a pass that takes longer than expected") {
+  Scene scene = room().scene;
+  scene.film.width = 160;
+  scene.film.height = 128;
+  scene.render.samples = 1000000;
+  RenderOptions options;
+  options.threads = 1;
+  options.time_limit = 1;
+  options.on_progress = [](const Progress& progress) {
+    if (progress.samples_finished >= 1) std::this_thread::sleep_for(std::chrono::milliseconds(200));
+  };
+  const RenderResult result = render_scene(scene, options);
+  CHECK_FALSE(result.complete);
+  CHECK(result.seconds < 3);  // the pass would take 4
+  CHECK(result.samples == 1);
+  const double mean = mean_samples(result.film);
+  CHECK(mean > 1);
+  CHECK(mean < 2);
 }

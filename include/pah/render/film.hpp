@@ -59,6 +59,9 @@ struct Film {
 // 0 for a pixel with fewer than two samples.
 [[nodiscard]] Image variance_of(const Film& film);
 
+// Per pixel, without those left out for not being finite.
+[[nodiscard]] double mean_samples(const Film& film);
+
 // The error that the image's own variance predicts, an upper estimate like the variance. The
 // interval is for the relmse that a comparison with a perfect reference would find. Pixels with
 // fewer than two samples are left out; if there are no others, the errors are infinite.

@@ -20,7 +20,7 @@ struct Progress {
 
 struct RenderOptions {
   int threads = 0;        // 0: all
-  double time_limit = 0;  // seconds; 0: none. Whole passes only, at least one
+  double time_limit = 0;  // seconds; 0: none. Every pixel gets one sample, however long that takes
   bool count_traversal = false;
   const std::atomic<bool>* stop = nullptr;           // set it to end early with what there is
   std::function<void(const Progress&)> on_progress;  // called from one thread at a time
