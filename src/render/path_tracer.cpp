@@ -234,7 +234,7 @@ void PathTracer::add_distant(const Path& path, const Ray& ray, PathSample& sampl
 void PathTracer::add_emission(const Path& path, const Ray& ray, const Hit& hit,
                               const SurfaceInteraction& at, PathSample& sample) const {
   const LightId light = at.surface->light;
-  const Vec3 radiance = lights_.emitted(light, at.point.normal, -ray.direction);
+  const Vec3 radiance = lights_.emitted(light, at.point.normal, -ray.direction, at.uv);
   if (is_black(radiance)) return;
   const float pdf = path.bsdf_pdf > 0 ? lights_.pdf_area(light, path.from, hit.triangle,
                                                          at.point.position, at.point.normal)

@@ -210,6 +210,8 @@ TEST_CASE("glTF: textures") {
   material["normalTexture"] = {{"index", 1}};
   material["alphaMode"] = "BLEND";
   material["emissiveFactor"] = {1, 2, 3};
+  material["emissiveTexture"] = {{"index", 0}};
+  material["doubleSided"] = true;
   const MeshFile file = read_mesh_file(files.write(json));
   const Material& paint = file.materials[file.parts[0].material];
   const auto& model = std::get<PrincipledMaterial>(paint.model);
@@ -228,7 +230,10 @@ TEST_CASE("glTF: textures") {
   CHECK(paint.opacity.value == 0.5F);
   CHECK(paint.opacity.channel == 3);
   CHECK(paint.opacity.texture == model.base_color.texture);
-  CHECK(file.emission[file.parts[0].material] == Vec3(1, 2, 3));
+  const AreaLight& glow = file.emission[file.parts[0].material];
+  CHECK(glow.radiance == Vec3(1, 2, 3));
+  CHECK(glow.image == model.base_color.texture);
+  CHECK(glow.two_sided);
 }
 
 TEST_CASE("glTF: images inside of the file") {
@@ -299,7 +304,7 @@ TEST_CASE("glTF: strength of emission, cut-outs, and what is left out") {
   material["alphaCutoff"] = 0.25;
   json["animations"] = Json::array({Json::object()});
   const MeshFile file = read_mesh_file(files.write(json));
-  CHECK(file.emission[0] == Vec3(5, 2.5F, 0));
+  CHECK(file.emission[0].radiance == Vec3(5, 2.5F, 0));
   CHECK(file.materials[0].opacity.value == 0.5F);
   CHECK(file.materials[0].opacity_cutoff == 0.25F);
   REQUIRE(file.warnings.size() == 1);

@@ -81,15 +81,16 @@ class MaterialReader {
     if (mode == "MASK") material.opacity_cutoff = factor(source, "alphaCutoff", 0.5F, 0, 1);
   }
 
-  Vec3 emission_of(const Json& source, const Json& extensions) {
+  AreaLight emission_of(const Json& source, const Json& extensions) {
     const Json& strength = child(extensions, "KHR_materials_emissive_strength");
     const DVec3 color = vec(source, "emissiveFactor", DVec3(0)) *
                         double{factor(strength, "emissiveStrength", 1, 0, 1e18F)};
-    const Vec3 emission(glm::clamp(color, 0.0, 1e18));
-    // An image says where a surface emits, which one radiance for all of it cannot.
-    if (!source.contains("emissiveTexture") || emission == Vec3(0)) return emission;
-    left_out_.emplace_back("light of surfaces with an emissiveTexture");
-    return Vec3(0);
+    AreaLight light;
+    light.radiance = Vec3(glm::clamp(color, 0.0, 1e18));
+    if (light.radiance != Vec3(0))
+      light.image = texture(source, "emissiveTexture", ColorSpace::srgb);
+    light.two_sided = source.value("doubleSided", false);
+    return light;
   }
 
   void tell_of_extensions(const Json& extensions) {
