@@ -273,6 +273,32 @@ TEST_CASE("glTF: accessors that are sparse, without data or normalized") {
   for (const Vec2& uv : read_mesh(files.write(json)).uvs) CHECK((uv.x >= 0 && uv.x <= 1));
 }
 
+TEST_CASE("glTF: vertex colors") {
+  const Files files;
+  Json json = square();
+  Json& color = json["meshes"][0]["primitives"][0]["attributes"]["COLOR_0"];
+  color = 0;  // the positions
+  const MeshFile file = read_mesh_file(files.write(json));
+  const Mesh& mesh = file.meshes.at(0);
+  CHECK(file.materials.at(file.parts[0].material).vertex_colors);
+  CHECK(mesh.colors == mesh.positions);
+  CHECK(file.warnings.empty());
+  CHECK(read_mesh(files.write(json)).colors.empty());  // as are the materials
+
+  // The bytes of 1.0F, 0.0F, 0.0F, 1.0F.
+  json["accessors"].push_back(Json::parse(R"({"bufferView": 0, "byteOffset": 12, "count": 4,
+      "componentType": 5121, "normalized": true, "type": "VEC4"})"));
+  color = 4;
+  const MeshFile bytes = read_mesh_file(files.write(json));
+  CHECK(bytes.meshes.at(0).colors[0].z == Approx(128 / 255.0));
+  CHECK(bytes.meshes[0].colors[1] == Vec3(0));
+  REQUIRE(bytes.warnings.size() == 1);
+  CHECK(bytes.warnings[0] == "left out: alpha of vertex colors");
+
+  json["accessors"][4]["count"] = 3;
+  CHECK(has(files.error_of(json), "attribute COLOR_0 has 3 values for 4 vertices"));
+}
+
 TEST_CASE("glTF: what is shown without a scene, and how triangles are listed") {
   const Files files;
   Json json = square();

@@ -58,6 +58,7 @@ class MaterialReader {
     model.metallic = {factor(metallic_roughness, "metallicFactor", 1, 0, 1), rough_metal, 2};
     model.roughness = {factor(metallic_roughness, "roughnessFactor", 1, 0, 1), rough_metal, 1};
     model.ior = factor(child(extensions, "KHR_materials_ior"), "ior", 1.5F, 1, 4);
+    material.vertex_colors = true;
     material.normal_map = texture(source, "normalTexture", ColorSpace::linear);
     read_opacity(source, base.w, model.base_color.texture, material);
     out_.emission.push_back(emission_of(source, extensions));

@@ -40,6 +40,7 @@ void hash_content(ContentHash& hash, MeshFile& file) {
     hash.add_part(bytes_of(mesh.positions));
     hash.add_part(bytes_of(mesh.normals));
     hash.add_part(bytes_of(mesh.uvs));
+    if (!mesh.colors.empty()) hash.add_part(bytes_of(mesh.colors));
     hash.add_part(bytes_of(mesh.triangles));
   }
   for (Material& material : file.materials)
