@@ -71,9 +71,10 @@ float opacity(const Material& material, const TextureStore& textures, Vec2 uv, f
 Vec3 mapped_normal(const Material& material, const TextureStore& textures, Vec2 uv,
                    float footprint) {
   if (material.normal_map == no_texture) return {0, 0, 1};
-  const Vec3 n =
+  const Vec3 map =
       2.0F * Vec3{textures.sample(material.normal_map, uv, TextureUse::data, Vec2{footprint})} -
       1.0F;
+  const Vec3 n = map * Vec3{material.normal_scale, material.normal_scale, 1};
   // A map says nothing of the underside: what points there, or nowhere, is no normal.
   const float length = glm::length(n);
   return n.z > 0 && std::isfinite(length) ? n / length : Vec3{0, 0, 1};

@@ -32,8 +32,8 @@ def tiles(u, v):
 
 def bumps(u, v):
     """The normals of rounded bumps, 16 by 16."""
-    slope_u = 0.3 * math.sin(2 * math.pi * 16 * u)
-    slope_v = 0.3 * math.sin(2 * math.pi * 16 * v)
+    slope_u = 0.4 * math.sin(2 * math.pi * 16 * u)
+    slope_v = 0.4 * math.sin(2 * math.pi * 16 * v)
     length = math.sqrt(slope_u**2 + slope_v**2 + 1)
     return tuple(0.5 + 0.5 * c / length for c in (slope_u, slope_v, 1))
 
@@ -100,6 +100,7 @@ def make_objects():
     links = floor.node_tree.links
     links.new(image_node(floor, image("bumps", 256, bumps, data=True)).outputs["Color"],
               bump.inputs["Color"])
+    bump.inputs["Strength"].default_value = 0.8
     links.new(bump.outputs["Normal"], shader.inputs["Normal"])
     add(mesh.primitive_plane_add, floor, size=12)
 

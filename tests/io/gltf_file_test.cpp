@@ -207,7 +207,7 @@ TEST_CASE("glTF: textures") {
   Json& material = json["materials"][0];
   material["pbrMetallicRoughness"]["baseColorTexture"] = {{"index", 0}};
   material["pbrMetallicRoughness"]["metallicRoughnessTexture"] = {{"index", 1}};
-  material["normalTexture"] = {{"index", 1}};
+  material["normalTexture"] = {{"index", 1}, {"scale", 0.5}};
   material["alphaMode"] = "BLEND";
   material["emissiveFactor"] = {1, 2, 3};
   material["emissiveTexture"] = {{"index", 0}};
@@ -227,6 +227,7 @@ TEST_CASE("glTF: textures") {
   CHECK(rough.color_space == ColorSpace::linear);
   CHECK_FALSE(rough.clamp);
   CHECK(paint.normal_map == model.roughness.texture);
+  CHECK(paint.normal_scale == 0.5F);
   CHECK(paint.opacity.value == 0.5F);
   CHECK(paint.opacity.channel == 3);
   CHECK(paint.opacity.texture == model.base_color.texture);

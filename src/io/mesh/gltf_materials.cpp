@@ -60,6 +60,8 @@ class MaterialReader {
     model.ior = factor(child(extensions, "KHR_materials_ior"), "ior", 1.5F, 1, 4);
     material.vertex_colors = true;
     material.normal_map = texture(source, "normalTexture", ColorSpace::linear);
+    material.normal_scale = factor(child(source, "normalTexture"), "scale", 1,
+                                   -largest_normal_scale, largest_normal_scale);
     read_opacity(source, base.w, model.base_color.texture, material);
     out_.emission.push_back(emission_of(source, extensions));
 
@@ -166,6 +168,8 @@ class MaterialReader {
     texture.file = known.file;
     texture.bytes = known.bytes;
   }
+
+  static constexpr float largest_normal_scale = 1e6F;  // whose square is finite
 
   struct Image {
     fs::path file;
