@@ -8,6 +8,7 @@
 #include "render/shading_frame.hpp"
 #include "render/spawn.hpp"
 #include "render/spherical_triangle.hpp"
+#include "render/surface_interaction.hpp"
 #include "render/warp.hpp"
 
 namespace pah {
@@ -156,9 +157,18 @@ Emitter prepare(const DirectionalLight& light, const TextureStore& /*textures*/)
   return emitter;
 }
 
-Emitter prepare(const AreaLight& light, const TextureStore& /*textures*/) {
+// Of all texels, whichever of them the surfaces show.
+Vec3 mean_color(const Image& image) {
+  DVec3 sum(0);
+  for (const Vec3& pixel : image.pixels) sum += pixel;
+  return Vec3(sum / static_cast<double>(image.pixels.size()));
+}
+
+Emitter prepare(const AreaLight& light, const TextureStore& textures) {
   AreaEmitter emitter;
-  emitter.radiance = light.radiance;
+  emitter.radiance = {light.radiance, light.image};
+  const Vec3 mean = light.image == no_texture ? Vec3(1) : mean_color(textures.image(light.image));
+  emitter.mean_radiance = mean_of(light.radiance * mean);
   emitter.two_sided = light.two_sided;
   return emitter;
 }
@@ -221,7 +231,7 @@ LightBounds bounds_of(const AreaEmitter& emitter, const Triangles& triangles) {
   }
   bounds.cos_theta_e = 0;
   bounds.two_sided = emitter.two_sided;
-  bounds.intensity = mean_of(emitter.radiance) * static_cast<float>(emitter.area);
+  bounds.intensity = emitter.mean_radiance * static_cast<float>(emitter.area);
   return bounds;
 }
 
@@ -276,7 +286,8 @@ Vec3 geometric_normal(const Triangle& triangle) {
 
 double area(const Triangle& triangle) { return 0.5 * glm::length(scaled_normal(triangle)); }
 
-Lights::Lights(const World& world, const TextureStore& textures) : world_(world) {
+Lights::Lights(const World& world, const TextureStore& textures)
+    : world_(world), textures_(textures) {
   emitters_.reserve(world.lights.size());
   for (const Light& light : world.lights) {
     emitters_.push_back(
@@ -320,7 +331,9 @@ std::optional<LightSample> Lights::sample_area(const AreaEmitter& emitter, const
   sample.direction = to_light / std::sqrt(distance2);
   const float cosine = -glm::dot(sample.direction, point.normal);
   if (cosine == 0 || (cosine < 0 && !emitter.two_sided)) return std::nullopt;
-  sample.radiance = emitter.radiance;
+  sample.radiance = emitter.radiance.value;
+  if (emitter.radiance.texture != no_texture)
+    sample.radiance = textures_.color(emitter.radiance, uv_at(world_, index, *b));
   sample.pdf = by_solid_angle
                    ? static_cast<float>(area(triangle) / (emitter.area * omega))
                    : static_cast<float>(static_cast<double>(distance2) /
@@ -344,10 +357,11 @@ std::optional<LightSample> Lights::sample(LightId light, const LitPoint& at, flo
   return sample_light(std::get<EnvironmentEmitter>(any), at, u2);
 }
 
-Vec3 Lights::emitted(LightId light, const Vec3& normal, const Vec3& direction) const {
+Vec3 Lights::emitted(LightId light, const Vec3& normal, const Vec3& direction,
+                     const Vec2& uv) const {
   const auto& emitter = std::get<AreaEmitter>(emitters_[light]);
   const bool shines = emitter.two_sided || glm::dot(normal, direction) > 0;
-  return shines ? emitter.radiance : Vec3(0);
+  return shines ? textures_.color(emitter.radiance, uv) : Vec3(0);
 }
 
 float Lights::pdf_area(LightId light, const LitPoint& at, std::uint32_t triangle,

@@ -51,7 +51,8 @@ struct DirectionalEmitter {
 };
 
 struct AreaEmitter {
-  Vec3 radiance{0};
+  ColorInput radiance{Vec3(0)};
+  float mean_radiance = 0;  // of the channels, and of the image
   bool two_sided = false;
   double area = 0;  // 0: nothing emits
   std::vector<std::uint32_t> triangles;
@@ -70,7 +71,8 @@ using Emitter =
 
 class Lights {
  public:
-  // The world must outlive the lights. Throws TextureError if an environment cannot be read.
+  // World and textures must outlive the lights. Throws TextureError if a light's image cannot be
+  // read.
   Lights(const World& world, const TextureStore& textures);
 
   [[nodiscard]] const LightSampler& sampler() const { return sampler_; }
@@ -80,8 +82,10 @@ class Lights {
   [[nodiscard]] std::optional<LightSample> sample(LightId light, const LitPoint& at, float u,
                                                   const Vec2& u2) const;
 
-  // What a triangle of an area light emits towards `direction`.
-  [[nodiscard]] Vec3 emitted(LightId light, const Vec3& normal, const Vec3& direction) const;
+  // What a triangle of an area light emits towards `direction`, where its texture coordinates are
+  // `uv`.
+  [[nodiscard]] Vec3 emitted(LightId light, const Vec3& normal, const Vec3& direction,
+                             const Vec2& uv) const;
   // The density per solid angle with which `sample(light, at)` draws this point of a triangle.
   [[nodiscard]] float pdf_area(LightId light, const LitPoint& at, std::uint32_t triangle,
                                const Vec3& position, const Vec3& normal) const;
@@ -100,6 +104,7 @@ class Lights {
                                                        const Vec2& u2) const;
 
   const World& world_;
+  const TextureStore& textures_;
   std::vector<Emitter> emitters_;
   std::vector<LightId> visible_distant_;
   bool any_visible_ = false;

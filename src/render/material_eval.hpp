@@ -9,9 +9,9 @@
 namespace pah {
 
 // `footprint` is the width of the filter in texture coordinates, >= 0; 0 takes the finest level.
-// Values from textures are clamped to the range that the model allows.
+// Values from textures and vertices are clamped to the range that the model allows.
 [[nodiscard]] Bsdf resolve_material(const Material& material, const TextureStore& textures, Vec2 uv,
-                                    float footprint);
+                                    float footprint, const Vec3& vertex_color = Vec3(1));
 
 // The share of light that is stopped, in [0, 1]; 1 - opacity passes straight through.
 [[nodiscard]] float opacity(const Material& material, const TextureStore& textures, Vec2 uv,

@@ -64,7 +64,7 @@ float footprint_on(const SurfaceInteraction& at, const Vec3& direction, float wi
   return cosine > 0 ? at.uv_per_length * width / std::sqrt(cosine) : 0;
 }
 
-Scattering scatter_at(const World& world, const TextureStore& textures,
+Scattering scatter_at(const World& world, const TextureStore& textures, const Hit& hit,
                       const SurfaceInteraction& at, const Vec3& wo, float footprint) {
   const Material& material = world.materials[at.surface->material];
   // Light that passes through must start at the facet, lest it meet it again.
@@ -84,7 +84,8 @@ Scattering scatter_at(const World& world, const TextureStore& textures,
   }
   if (tilted) normal = visible_normal(normal, at.point.normal, wo);
 
-  s.bsdf = resolve_material(material, textures, at.uv, footprint);
+  s.bsdf = resolve_material(material, textures, at.uv, footprint,
+                            material.vertex_colors ? vertex_color_at(world, hit) : Vec3(1));
   s.frame = make_frame(normal);
   s.world_wo = wo;
   s.wo = s.frame.local_from_world(wo);
@@ -201,7 +202,7 @@ bool PathTracer::shade_path(Path& path, Ray& ray, const Hit& hit, PathBatch& bat
   if (path.depth >= settings_.max_depth) return false;
   ++path.depth;
 
-  const Scattering scattering = scatter_at(world_, textures_, at, -ray.direction, footprint);
+  const Scattering scattering = scatter_at(world_, textures_, hit, at, -ray.direction, footprint);
   if (scattering.smooth) {
     if (!path.features_found) {
       sample.albedo = albedo(scattering.bsdf);
@@ -234,7 +235,7 @@ void PathTracer::add_distant(const Path& path, const Ray& ray, PathSample& sampl
 void PathTracer::add_emission(const Path& path, const Ray& ray, const Hit& hit,
                               const SurfaceInteraction& at, PathSample& sample) const {
   const LightId light = at.surface->light;
-  const Vec3 radiance = lights_.emitted(light, at.point.normal, -ray.direction);
+  const Vec3 radiance = lights_.emitted(light, at.point.normal, -ray.direction, at.uv);
   if (is_black(radiance)) return;
   const float pdf = path.bsdf_pdf > 0 ? lights_.pdf_area(light, path.from, hit.triangle,
                                                          at.point.position, at.point.normal)

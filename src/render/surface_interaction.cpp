@@ -31,6 +31,13 @@ Vec2 uv_at(const World& world, std::uint32_t triangle, const Vec2& barycentrics)
          barycentrics.y * world.uvs[k.z];
 }
 
+Vec3 vertex_color_at(const World& world, const Hit& hit) {
+  if (!world.surfaces[world.surface_of_triangle[hit.triangle]].has_colors) return Vec3(1);
+  const UVec3& k = world.indices[hit.triangle];
+  return (1 - hit.u - hit.v) * world.colors[k.x] + hit.u * world.colors[k.y] +
+         hit.v * world.colors[k.z];
+}
+
 SurfaceInteraction interact(const World& world, const Hit& hit) {
   const UVec3& k = world.indices[hit.triangle];
   const Triangle triangle = world.triangles()[hit.triangle];

@@ -36,6 +36,9 @@ struct SurfaceInteraction {
 // Only what an opacity mask needs.
 [[nodiscard]] Vec2 uv_at(const World& world, std::uint32_t triangle, const Vec2& barycentrics);
 
+// Black to white and beyond, as the mesh has it; white where it has no colors.
+[[nodiscard]] Vec3 vertex_color_at(const World& world, const Hit& hit);
+
 // A shading normal seen from the same side as the geometry: where `wo` would lie behind it, it is
 // mirrored about the plane across `wo`, which is continuous and turns it towards the geometric one.
 [[nodiscard]] Vec3 visible_normal(const Vec3& shading, const Vec3& geometric, const Vec3& wo);

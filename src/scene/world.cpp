@@ -92,6 +92,8 @@ void require_valid(const Scene& scene, const Instance& instance) {
     fail(mesh, "as many normals as positions are needed, or none");
   if (!mesh.uvs.empty() && mesh.uvs.size() != mesh.positions.size())
     fail(mesh, "as many texture coordinates as positions are needed, or none");
+  if (!mesh.colors.empty() && mesh.colors.size() != mesh.positions.size())
+    fail(mesh, "as many colors as positions are needed, or none");
   const double det = glm::determinant(normalized_linear(instance.world_from_object));
   if (!std::isfinite(det) || det == 0) fail(mesh, "its transform is not finite or flattens it");
 }
@@ -130,6 +132,7 @@ Fault copy_vertices(const Mesh& mesh, const glm::dmat4x3& world_from_object, con
         if (!(std::isfinite(uv.x) && std::isfinite(uv.y))) note(Fault::uv);
         world.uvs[out] = uv;
       }
+      if (!mesh.colors.empty()) world.colors[out] = mesh.colors[i];
     }
     return fault;
   };
@@ -155,6 +158,7 @@ std::vector<Slot> lay_out(const Scene& scene, World& world) {
   std::uint64_t triangles = 0;
   bool any_normals = false;
   bool any_uvs = false;
+  bool any_colors = false;
   std::vector<Slot> slots;
   slots.reserve(scene.instances.size());
   world.surfaces.reserve(scene.instances.size());
@@ -165,17 +169,19 @@ std::vector<Slot> lay_out(const Scene& scene, World& world) {
     world.surfaces.push_back({instance.material, instance.light,
                               static_cast<std::uint32_t>(triangles),
                               static_cast<std::uint32_t>(mesh.triangles.size()),
-                              !mesh.normals.empty(), !mesh.uvs.empty()});
+                              !mesh.normals.empty(), !mesh.uvs.empty(), !mesh.colors.empty()});
     positions += mesh.positions.size();
     triangles += mesh.triangles.size();
     any_normals |= !mesh.normals.empty();
     any_uvs |= !mesh.uvs.empty();
+    any_colors |= !mesh.colors.empty();
     if (positions > limit || triangles > limit)
       throw std::length_error("the scene has more than 2^32 - 2 triangles or vertices");
   }
   world.positions.resize(positions);
   if (any_normals) world.normals.resize(positions);
   if (any_uvs) world.uvs.resize(positions);
+  if (any_colors) world.colors.resize(positions);
   world.indices.resize(triangles);
   world.surface_of_triangle.resize(triangles);
   return slots;
@@ -269,8 +275,8 @@ World make_world(const Scene& scene) {
 }
 
 std::uint64_t World::bytes() const {
-  return bytes_of(positions) + bytes_of(normals) + bytes_of(uvs) + bytes_of(indices) +
-         bytes_of(surface_of_triangle) + bytes_of(surfaces) + bytes_of(lights) +
+  return bytes_of(positions) + bytes_of(normals) + bytes_of(uvs) + bytes_of(colors) +
+         bytes_of(indices) + bytes_of(surface_of_triangle) + bytes_of(surfaces) + bytes_of(lights) +
          bytes_of(materials) + bytes_of(textures);
 }
 

@@ -207,9 +207,11 @@ TEST_CASE("glTF: textures") {
   Json& material = json["materials"][0];
   material["pbrMetallicRoughness"]["baseColorTexture"] = {{"index", 0}};
   material["pbrMetallicRoughness"]["metallicRoughnessTexture"] = {{"index", 1}};
-  material["normalTexture"] = {{"index", 1}};
+  material["normalTexture"] = {{"index", 1}, {"scale", 0.5}};
   material["alphaMode"] = "BLEND";
   material["emissiveFactor"] = {1, 2, 3};
+  material["emissiveTexture"] = {{"index", 0}};
+  material["doubleSided"] = true;
   const MeshFile file = read_mesh_file(files.write(json));
   const Material& paint = file.materials[file.parts[0].material];
   const auto& model = std::get<PrincipledMaterial>(paint.model);
@@ -225,10 +227,14 @@ TEST_CASE("glTF: textures") {
   CHECK(rough.color_space == ColorSpace::linear);
   CHECK_FALSE(rough.clamp);
   CHECK(paint.normal_map == model.roughness.texture);
+  CHECK(paint.normal_scale == 0.5F);
   CHECK(paint.opacity.value == 0.5F);
   CHECK(paint.opacity.channel == 3);
   CHECK(paint.opacity.texture == model.base_color.texture);
-  CHECK(file.emission[file.parts[0].material] == Vec3(1, 2, 3));
+  const AreaLight& glow = file.emission[file.parts[0].material];
+  CHECK(glow.radiance == Vec3(1, 2, 3));
+  CHECK(glow.image == model.base_color.texture);
+  CHECK(glow.two_sided);
 }
 
 TEST_CASE("glTF: images inside of the file") {
@@ -268,6 +274,32 @@ TEST_CASE("glTF: accessors that are sparse, without data or normalized") {
   for (const Vec2& uv : read_mesh(files.write(json)).uvs) CHECK((uv.x >= 0 && uv.x <= 1));
 }
 
+TEST_CASE("glTF: vertex colors") {
+  const Files files;
+  Json json = square();
+  Json& color = json["meshes"][0]["primitives"][0]["attributes"]["COLOR_0"];
+  color = 0;  // the positions
+  const MeshFile file = read_mesh_file(files.write(json));
+  const Mesh& mesh = file.meshes.at(0);
+  CHECK(file.materials.at(file.parts[0].material).vertex_colors);
+  CHECK(mesh.colors == mesh.positions);
+  CHECK(file.warnings.empty());
+  CHECK(read_mesh(files.write(json)).colors.empty());  // as are the materials
+
+  // The bytes of 1.0F, 0.0F, 0.0F, 1.0F.
+  json["accessors"].push_back(Json::parse(R"({"bufferView": 0, "byteOffset": 12, "count": 4,
+      "componentType": 5121, "normalized": true, "type": "VEC4"})"));
+  color = 4;
+  const MeshFile bytes = read_mesh_file(files.write(json));
+  CHECK(bytes.meshes.at(0).colors[0].z == Approx(128 / 255.0));
+  CHECK(bytes.meshes[0].colors[1] == Vec3(0));
+  REQUIRE(bytes.warnings.size() == 1);
+  CHECK(bytes.warnings[0] == "left out: alpha of vertex colors");
+
+  json["accessors"][4]["count"] = 3;
+  CHECK(has(files.error_of(json), "attribute COLOR_0 has 3 values for 4 vertices"));
+}
+
 TEST_CASE("glTF: what is shown without a scene, and how triangles are listed") {
   const Files files;
   Json json = square();
@@ -299,7 +331,7 @@ TEST_CASE("glTF: strength of emission, cut-outs, and what is left out") {
   material["alphaCutoff"] = 0.25;
   json["animations"] = Json::array({Json::object()});
   const MeshFile file = read_mesh_file(files.write(json));
-  CHECK(file.emission[0] == Vec3(5, 2.5F, 0));
+  CHECK(file.emission[0].radiance == Vec3(5, 2.5F, 0));
   CHECK(file.materials[0].opacity.value == 0.5F);
   CHECK(file.materials[0].opacity_cutoff == 0.25F);
   REQUIRE(file.warnings.size() == 1);

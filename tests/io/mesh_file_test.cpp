@@ -315,8 +315,8 @@ TEST_CASE("OBJ: materials") {
   CHECK(result.meshes[result.parts[1].mesh].uvs.size() == 3);
   REQUIRE(std::holds_alternative<GlassMaterial>(material(2).model));
   CHECK(std::get<GlassMaterial>(material(2).model).ior == 1.33F);
-  CHECK(result.emission[result.parts[3].material] == Vec3(3, 2, 1));
-  CHECK(result.emission[result.parts[0].material] == Vec3(0));
+  CHECK(result.emission[result.parts[3].material].radiance == Vec3(3, 2, 1));
+  CHECK(result.emission[result.parts[0].material].radiance == Vec3(0));
 
   // Without its materials, the file is one mesh.
   CHECK(read_mesh(file).triangles.size() == 4);

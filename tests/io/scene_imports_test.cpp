@@ -1,4 +1,5 @@
 // What a scene takes from a mesh file, and how it is adjusted.
+#include <pah/io/image_file.hpp>
 #include <pah/io/load_scene.hpp>
 
 #include "catch.hpp"
@@ -27,7 +28,14 @@ constexpr const char* kitchen = R"({
 
 class Kitchen {
  public:
-  Kitchen() { write_text(folder_ / "kitchen.gltf", kitchen); }
+  Kitchen() { write("kitchen.gltf", kitchen); }
+
+  void write(const std::string& name, const std::string& text) const {
+    write_text(folder_ / name, text);
+  }
+  [[nodiscard]] std::filesystem::path operator/(const std::string& name) const {
+    return folder_ / name;
+  }
 
   [[nodiscard]] Scene load(const std::string& yaml,
                            const std::vector<std::string>& overrides = {}) const {
@@ -86,6 +94,25 @@ TEST_CASE("a mesh file's lights are scaled") {
   CHECK(std::get<AreaLight>(scene.lights[1].model).radiance.x == Approx(0.5));
   CHECK(files.error_of("meshes: [{file: kitchen.gltf, light_scale: 2}]") ==
         "1:44: 'light_scale' needs the file's lights: use: [lights]");
+}
+
+TEST_CASE("a mesh file's emissive texture and double-sidedness come with its light") {
+  const Kitchen files;
+  std::string text = kitchen;
+  const std::string factor = R"("emissiveFactor")";
+  text.replace(text.find(factor), factor.size(),
+               R"("doubleSided": true, "emissiveTexture": {"index": 0}, "emissiveFactor")");
+  text.insert(text.find(R"("materials")"),
+              R"("images": [{"uri": "glow.png"}], "textures": [{"source": 0}], )");
+  files.write("kitchen.gltf", text);
+  write_image(files / "glow.png", {{"", {"R", "G", "B"}, {1, 1, {Vec3(1)}}}});
+  const Scene scene = files.load(
+      "textures: {squares: {type: checker}}\n"
+      "materials: {m: {type: diffuse, reflectance: {texture: squares}}}\n"
+      "meshes: [{shape: box, material: m}, {file: kitchen.gltf, use: [materials, lights]}]");
+  const auto& glow = std::get<AreaLight>(scene.lights.at(1).model);
+  CHECK(glow.two_sided);
+  CHECK(std::get<ImageTexture>(scene.textures.at(glow.image)).file.filename() == "glow.png");
 }
 
 TEST_CASE("a mesh file's materials are replaced by name") {

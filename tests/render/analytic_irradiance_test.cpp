@@ -1,9 +1,11 @@
 // A white diffuse floor under one light: what it reflects is its irradiance over pi, and that has a
 // closed form. A million samples each.
 #include <algorithm>
+#include <pah/io/image_file.hpp>
 
 #include "analytic_scenes.hpp"
 #include "catch.hpp"
+#include "support/temporary_folder.hpp"
 
 using namespace pah;
 using namespace pah::test;
@@ -89,6 +91,27 @@ TEST_CASE("irradiance under a rectangle") {
       INFO("height " << height << " strategy " << static_cast<int>(strategy));
       check_irradiance(builder.scene, 2 * pi * factor);
     }
+  }
+}
+
+TEST_CASE("irradiance under a rectangle whose image is half black") {
+  const TemporaryFolder folder;
+  Image image{256, 1, std::vector<Vec3>(256, Vec3(0))};
+  std::fill(image.pixels.begin() + 128, image.pixels.end(), Vec3(0.5F));
+  write_image(folder / "half.exr", {{"", {"R", "G", "B"}, image}});
+  for (const Strategy strategy : strategies) {
+    SceneBuilder builder = floor_seen_from_aside();
+    ImageTexture texture;
+    texture.file = folder / "half.exr";
+    texture.clamp = true;
+    builder.scene.textures.emplace_back(texture);
+    const LightId panel = builder.light(AreaLight{Vec3(4), false, 0});
+    builder.add(RectangleShape{{1, 2}}, 0, moved({0.1, 1, 0.3}) * turned(180, {1, 0, 0}), panel);
+    builder.scene.render.strategy = strategy;
+    const double factor = corner_factor(0.6, 1.3, 1) - corner_factor(0.1, 1.3, 1) +
+                          corner_factor(0.6, 0.7, 1) - corner_factor(0.1, 0.7, 1);
+    INFO("strategy " << static_cast<int>(strategy));
+    check_irradiance(builder.scene, 2 * pi * factor);
   }
 }
 

@@ -80,6 +80,10 @@ TEST_CASE("opacity and normal maps") {
   CHECK(glm::distance(mapped_normal(material, textures, {}, 0), Vec3{0, 0, 1}) < 1e-6F);
   material.normal_map = 2;
   CHECK(glm::distance(mapped_normal(material, textures, {}, 0), Vec3{0.5F, 0, 0.8660254F}) < 1e-6F);
+  material.normal_scale = -3;  // tan 30 degrees becomes -tan 60 degrees
+  CHECK(glm::distance(mapped_normal(material, textures, {}, 0), Vec3{-0.8660254F, 0, 0.5F}) <
+        1e-6F);
+  material.normal_scale = 1;
   // In the surface or under it.
   for (const TextureId flat : {1U, 3U}) {
     material.normal_map = flat;

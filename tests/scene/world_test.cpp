@@ -11,7 +11,7 @@ using namespace pah;
 
 namespace {
 
-Mesh mesh_of(const World& world) { return {"", world.positions, {}, {}, world.indices}; }
+Mesh mesh_of(const World& world) { return {"", world.positions, {}, {}, world.indices, {}}; }
 
 Scene scene_of(const Shape& shape, const glm::dmat4x3& transform = glm::dmat4x3{1.0}) {
   Scene scene;

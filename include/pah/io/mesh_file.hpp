@@ -66,7 +66,7 @@ struct MeshFile {
   // Point, spot and directional lights of glTF, whose units are photometric: 683 lm/W turn them
   // into watts. Area lights of emissive materials are not among them.
   std::vector<Light> lights;
-  std::vector<Vec3> emission;         // per material: radiance that it emits, W/(m2 sr), or black
+  std::vector<AreaLight> emission;    // per material: how it shines; black if it does not
   std::vector<std::string> warnings;  // what was left out, one sentence each
 };
 

@@ -27,8 +27,9 @@ struct DirectionalLight {
 
 // Emits from the instances whose `light` is this one.
 struct AreaLight {
-  Vec3 radiance{1};  // W/(m2 sr)
+  Vec3 radiance{1};  // W/(m2 sr); multiplies the image, if there is one
   bool two_sided = false;
+  TextureId image = no_texture;  // an ImageTexture, by the surfaces' texture coordinates
 };
 
 // Radiance from everywhere around the scene.

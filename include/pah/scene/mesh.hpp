@@ -20,6 +20,7 @@ struct Mesh {
   std::vector<Vec3> normals;  // one per position, of unit length, or none (flat shading)
   std::vector<Vec2> uvs;      // one per position, or none; v grows upwards in the image
   std::vector<UVec3> triangles;
+  std::vector<Vec3> colors;  // linear, one per position, or none; for materials that ask for them
 };
 
 // A mesh in the scene. If it emits, `light` is the area light that it belongs to.

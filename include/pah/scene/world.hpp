@@ -16,6 +16,7 @@ struct Surface {
   std::uint32_t triangle_count = 0;
   bool has_normals = false;
   bool has_uvs = false;
+  bool has_colors = false;
 };
 
 struct World {
@@ -26,6 +27,7 @@ struct World {
   std::vector<Vec3> positions;
   std::vector<Vec3> normals;  // per position; empty if no surface has normals
   std::vector<Vec2> uvs;      // per position; empty if no surface has texture coordinates
+  std::vector<Vec3> colors;   // per position; empty if no surface has colors
   std::vector<UVec3> indices;
   std::vector<std::uint32_t> surface_of_triangle;
   std::vector<Surface> surfaces;

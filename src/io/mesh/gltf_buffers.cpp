@@ -172,6 +172,11 @@ std::vector<Value> GltfBuffers::values(const Json& accessor, std::size_t compone
   return values;
 }
 
+std::size_t GltfBuffers::components(std::size_t accessor) const {
+  const Json& source = list(document_.json, "accessors").at(accessor);
+  return components_of(source.value("type", std::string()), "accessor " + std::to_string(accessor));
+}
+
 std::vector<float> GltfBuffers::floats(std::size_t accessor, std::size_t components,
                                        const std::string& name) const {
   const std::string place = "accessor " + std::to_string(accessor);

@@ -21,6 +21,8 @@ class GltfBuffers {
   // a sparse one leaves open is 0. `name` is for errors.
   [[nodiscard]] std::vector<float> floats(std::size_t accessor, std::size_t components,
                                           const std::string& name) const;
+  // How many numbers an element has: "VEC3" are 3.
+  [[nodiscard]] std::size_t components(std::size_t accessor) const;
   // Whole numbers.
   [[nodiscard]] std::vector<std::uint32_t> indices(std::size_t accessor) const;
 

@@ -58,7 +58,10 @@ class MaterialReader {
     model.metallic = {factor(metallic_roughness, "metallicFactor", 1, 0, 1), rough_metal, 2};
     model.roughness = {factor(metallic_roughness, "roughnessFactor", 1, 0, 1), rough_metal, 1};
     model.ior = factor(child(extensions, "KHR_materials_ior"), "ior", 1.5F, 1, 4);
+    material.vertex_colors = true;
     material.normal_map = texture(source, "normalTexture", ColorSpace::linear);
+    material.normal_scale = factor(child(source, "normalTexture"), "scale", 1,
+                                   -largest_normal_scale, largest_normal_scale);
     read_opacity(source, base.w, model.base_color.texture, material);
     out_.emission.push_back(emission_of(source, extensions));
 
@@ -81,15 +84,16 @@ class MaterialReader {
     if (mode == "MASK") material.opacity_cutoff = factor(source, "alphaCutoff", 0.5F, 0, 1);
   }
 
-  Vec3 emission_of(const Json& source, const Json& extensions) {
+  AreaLight emission_of(const Json& source, const Json& extensions) {
     const Json& strength = child(extensions, "KHR_materials_emissive_strength");
     const DVec3 color = vec(source, "emissiveFactor", DVec3(0)) *
                         double{factor(strength, "emissiveStrength", 1, 0, 1e18F)};
-    const Vec3 emission(glm::clamp(color, 0.0, 1e18));
-    // An image says where a surface emits, which one radiance for all of it cannot.
-    if (!source.contains("emissiveTexture") || emission == Vec3(0)) return emission;
-    left_out_.emplace_back("light of surfaces with an emissiveTexture");
-    return Vec3(0);
+    AreaLight light;
+    light.radiance = Vec3(glm::clamp(color, 0.0, 1e18));
+    if (light.radiance != Vec3(0))
+      light.image = texture(source, "emissiveTexture", ColorSpace::srgb);
+    light.two_sided = source.value("doubleSided", false);
+    return light;
   }
 
   void tell_of_extensions(const Json& extensions) {
@@ -164,6 +168,8 @@ class MaterialReader {
     texture.file = known.file;
     texture.bytes = known.bytes;
   }
+
+  static constexpr float largest_normal_scale = 1e6F;  // whose square is finite
 
   struct Image {
     fs::path file;

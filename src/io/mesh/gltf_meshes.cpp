@@ -34,8 +34,25 @@ void add_triangles(std::uint64_t mode, const std::vector<std::uint32_t>& indices
   }
 }
 
+// Linear colors, with or without an alpha.
+void read_colors(const GltfBuffers& buffers, std::size_t accessor, PolygonMesh& mesh,
+                 std::vector<std::string>& left_out) {
+  const std::size_t size = buffers.components(accessor) == 4 ? 4 : 3;
+  const std::vector<float> values = buffers.floats(accessor, size, "attribute COLOR_0");
+  check_count(values.size() / size, mesh.positions.size(), "COLOR_0");
+  bool translucent = false;
+  for (std::size_t i = 0; i < values.size(); i += size) {
+    const Vec3 color(values[i], values[i + 1], values[i + 2]);
+    if (!finite(color)) fail_at(i / size, "color");
+    mesh.colors.push_back(color);
+    translucent |= size == 4 && values[i + 3] != 1;
+  }
+  if (translucent) left_out.emplace_back("alpha of vertex colors");
+}
+
 PolygonMesh read_primitive(const GltfDocument& document, const GltfBuffers& buffers,
-                           const Json& primitive, std::uint64_t mode) {
+                           const Json& primitive, std::uint64_t mode,
+                           std::vector<std::string>& left_out) {
   const std::size_t accessors = list(document.json, "accessors").size();
   const Json& attributes = child(primitive, "attributes");
   if (!attributes.contains("POSITION")) throw MeshFileError("a mesh primitive has no positions");
@@ -68,6 +85,8 @@ PolygonMesh read_primitive(const GltfDocument& document, const GltfBuffers& buff
       mesh.uvs.emplace_back(uvs[2 * i], 1 - uvs[2 * i + 1]);  // v grows downwards in glTF
     }
   }
+  if (attributes.contains("COLOR_0"))
+    read_colors(buffers, index_of(attributes, "COLOR_0", accessors), mesh, left_out);
   std::vector<std::uint32_t> indices;
   if (primitive.contains("indices")) {
     indices = buffers.indices(index_of(primitive, "indices", accessors));
@@ -96,11 +115,10 @@ std::vector<GltfPrimitive> read_gltf_mesh(const GltfDocument& document, const Gl
       left_out.emplace_back("points and lines");
       continue;
     }
-    if (child(primitive, "attributes").contains("COLOR_0")) left_out.emplace_back("vertex colors");
     if (primitive.contains("targets")) left_out.emplace_back("morph targets");
     primitives.push_back(
         {primitive.contains("material") ? index_of(primitive, "material", materials) : materials,
-         read_primitive(document, buffers, primitive, mode)});
+         read_primitive(document, buffers, primitive, mode, left_out)});
   }
   return primitives;
 }

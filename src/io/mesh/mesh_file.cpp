@@ -64,7 +64,7 @@ MeshFile read_mesh_file(const fs::path& file, const MeshFileOptions& options) {
     }
     if (result.materials.empty()) {
       result.materials.emplace_back();
-      result.emission.emplace_back(0);
+      result.emission.push_back({.radiance = Vec3(0)});
     }
     return result;
   } catch (const MeshFileError&) {

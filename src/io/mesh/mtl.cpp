@@ -270,7 +270,7 @@ void read_mtl_materials(const ObjFile& obj, const fs::path& file, const MeshFile
     if (!known && !name.empty() && !missing) unknown.push_back(name);
     const MtlMaterial material = known ? found->second : MtlMaterial{};
     out.materials.push_back(material_of(name, material));
-    out.emission.push_back(glm::max(material.emission, Vec3(0)));
+    out.emission.push_back({.radiance = glm::max(material.emission, Vec3(0))});
   }
   if (!unknown.empty()) {
     const std::size_t more = unknown.size() > 4 ? unknown.size() - 4 : 0;

@@ -64,7 +64,7 @@ class TriangleMaker {
         }
     }
     has_normals_ = normals && options_.normals == MeshNormals::file;
-    builder_ = MeshBuilder(has_normals_, uvs, faces);
+    builder_ = MeshBuilder({has_normals_, uvs, !polygons_.colors.empty()}, faces);
   }
 
   void add(const Faces& run) {
@@ -115,8 +115,9 @@ class TriangleMaker {
     const bool flat = has_normals_ && !unit_normal(vertex, normal);
     if (flat) normal = flat_normal(corners, t);
     const Vec2 uv = vertex.uv == no_index ? Vec2(0) : polygons_.uvs[vertex.uv];
+    const Vec3 color = polygons_.colors.empty() ? Vec3(1) : polygons_.colors[vertex.position];
     const std::uint32_t result =
-        builder_.add_vertex(polygons_.positions[vertex.position], normal, uv);
+        builder_.add_vertex(polygons_.positions[vertex.position], normal, uv, color);
     // A normal of this triangle is not the vertex's elsewhere.
     if (!flat) known = {material_, result};
     return result;
@@ -144,7 +145,7 @@ class TriangleMaker {
   std::vector<Made> made_;
   std::uint32_t material_ = 0;
   bool has_normals_ = false;
-  MeshBuilder builder_{false, false, 0};
+  MeshBuilder builder_{{}, 0};
   std::vector<Vec3> points_;      // of the face at hand
   std::vector<UVec3> triangles_;  // of their numbers
 };

@@ -21,6 +21,7 @@ struct PolygonMesh {
   std::vector<Vec3> positions;  // finite, as are the others
   std::vector<Vec2> uvs;
   std::vector<Vec3> normals;  // of any length
+  std::vector<Vec3> colors;   // one per position, or none
   // If there are none, vertex i has position, texture coordinate and normal i, and of those there
   // are as many as positions, or none.
   std::vector<PolygonVertex> vertices;

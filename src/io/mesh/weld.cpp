@@ -23,8 +23,7 @@ std::uint64_t mix(std::uint64_t hash, const Vec3& v) {
 
 }  // namespace
 
-MeshBuilder::MeshBuilder(bool has_normals, bool has_uvs, std::size_t expected_triangles)
-    : has_normals_(has_normals), has_uvs_(has_uvs) {
+MeshBuilder::MeshBuilder(const VertexParts& parts, std::size_t expected_triangles) : parts_(parts) {
   mesh_.triangles.reserve(expected_triangles);
   // A closed mesh has half as many vertices as triangles.
   table_.resize(std::bit_ceil(expected_triangles + 16));
@@ -32,27 +31,31 @@ MeshBuilder::MeshBuilder(bool has_normals, bool has_uvs, std::size_t expected_tr
 
 std::uint64_t MeshBuilder::hash(std::uint32_t vertex) const {
   std::uint64_t h = mix(0, mesh_.positions[vertex]);
-  if (has_normals_) h = mix(h, mesh_.normals[vertex]);
-  if (has_uvs_) {
+  if (parts_.normals) h = mix(h, mesh_.normals[vertex]);
+  if (parts_.uvs) {
     const Vec2& uv = mesh_.uvs[vertex];
     h = mix(h, bits_of(uv.x) | std::uint64_t{bits_of(uv.y)} << 32);
   }
+  if (parts_.colors) h = mix(h, mesh_.colors[vertex]);
   return h;
 }
 
 bool MeshBuilder::same(std::uint32_t a, std::uint32_t b) const {
   return mesh_.positions[a] == mesh_.positions[b] &&
-         (!has_normals_ || mesh_.normals[a] == mesh_.normals[b]) &&
-         (!has_uvs_ || mesh_.uvs[a] == mesh_.uvs[b]);
+         (!parts_.normals || mesh_.normals[a] == mesh_.normals[b]) &&
+         (!parts_.uvs || mesh_.uvs[a] == mesh_.uvs[b]) &&
+         (!parts_.colors || mesh_.colors[a] == mesh_.colors[b]);
 }
 
-std::uint32_t MeshBuilder::add_vertex(const Vec3& position, const Vec3& normal, const Vec2& uv) {
+std::uint32_t MeshBuilder::add_vertex(const Vec3& position, const Vec3& normal, const Vec2& uv,
+                                      const Vec3& color) {
   if (2 * (vertices() + 1) > table_.size()) grow();
   // Added first, taken back if it is there already.
   const auto vertex = static_cast<std::uint32_t>(vertices());
   mesh_.positions.push_back(position);
-  if (has_normals_) mesh_.normals.push_back(normal);
-  if (has_uvs_) mesh_.uvs.push_back(uv);
+  if (parts_.normals) mesh_.normals.push_back(normal);
+  if (parts_.uvs) mesh_.uvs.push_back(uv);
+  if (parts_.colors) mesh_.colors.push_back(color);
   const std::size_t mask = table_.size() - 1;
   for (std::size_t slot = hash(vertex) & mask;; slot = (slot + 1) & mask) {
     if (table_[slot] == 0) {
@@ -62,8 +65,9 @@ std::uint32_t MeshBuilder::add_vertex(const Vec3& position, const Vec3& normal, 
     const std::uint32_t found = table_[slot] - 1;
     if (!same(found, vertex)) continue;
     mesh_.positions.pop_back();
-    if (has_normals_) mesh_.normals.pop_back();
-    if (has_uvs_) mesh_.uvs.pop_back();
+    if (parts_.normals) mesh_.normals.pop_back();
+    if (parts_.uvs) mesh_.uvs.pop_back();
+    if (parts_.colors) mesh_.colors.pop_back();
     return found;
   }
 }
@@ -83,12 +87,13 @@ Mesh MeshBuilder::take() {
   mesh_.positions.shrink_to_fit();
   mesh_.normals.shrink_to_fit();
   mesh_.uvs.shrink_to_fit();
+  mesh_.colors.shrink_to_fit();
   mesh_.triangles.shrink_to_fit();
   return std::move(mesh_);
 }
 
 void smooth_normals(Mesh& mesh) {
-  MeshBuilder by_position(false, false, mesh.triangles.size());
+  MeshBuilder by_position({}, mesh.triangles.size());
   std::vector<std::uint32_t> point_of_vertex;
   point_of_vertex.reserve(mesh.positions.size());
   for (const Vec3& p : mesh.positions) point_of_vertex.push_back(by_position.add_vertex(p, {}, {}));

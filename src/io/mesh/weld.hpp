@@ -7,13 +7,20 @@
 
 namespace pah {
 
-// What a mesh is made of: normals and texture coordinates are all there or not at all.
+// What vertices have beside positions: all of them or none.
+struct VertexParts {
+  bool normals = false;
+  bool uvs = false;
+  bool colors = false;
+};
+
 class MeshBuilder {
  public:
-  MeshBuilder(bool has_normals, bool has_uvs, std::size_t expected_triangles);
+  MeshBuilder(const VertexParts& parts, std::size_t expected_triangles);
 
-  // The index of the vertex. `normal` and `uv` are ignored where the mesh has none.
-  std::uint32_t add_vertex(const Vec3& position, const Vec3& normal, const Vec2& uv);
+  // The index of the vertex. What the mesh has none of is ignored.
+  std::uint32_t add_vertex(const Vec3& position, const Vec3& normal, const Vec2& uv,
+                           const Vec3& color = Vec3(1));
   void add_triangle(const UVec3& triangle) { mesh_.triangles.push_back(triangle); }
 
   [[nodiscard]] std::size_t vertices() const { return mesh_.positions.size(); }
@@ -26,8 +33,7 @@ class MeshBuilder {
   void grow();
 
   Mesh mesh_;
-  bool has_normals_;
-  bool has_uvs_;
+  VertexParts parts_;
   std::vector<std::uint32_t> table_;  // open addressing over a power of 2; vertex + 1, or 0
 };
 

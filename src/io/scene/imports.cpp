@@ -40,6 +40,7 @@ void hash_content(ContentHash& hash, MeshFile& file) {
     hash.add_part(bytes_of(mesh.positions));
     hash.add_part(bytes_of(mesh.normals));
     hash.add_part(bytes_of(mesh.uvs));
+    if (!mesh.colors.empty()) hash.add_part(bytes_of(mesh.colors));
     hash.add_part(bytes_of(mesh.triangles));
   }
   for (Material& material : file.materials)
@@ -74,12 +75,14 @@ ImportedFile add_file(SceneReading& reading, MeshFile file, const Mark& mark) {
     for_each_input(material, [&](auto& input) { shift(input.texture); });
     scene.materials.push_back(std::move(material));
   }
+  for (AreaLight& emission : file.emission) shift(emission.image);
   for (Mesh& mesh : file.meshes) scene.meshes.push_back(std::move(mesh));
 
   ImportedFile imported;
   for (MeshFilePart part : file.parts) {
-    imported.emission.push_back(part.material < file.emission.size() ? file.emission[part.material]
-                                                                     : Vec3(0));
+    imported.emission.push_back(part.material < file.emission.size()
+                                    ? file.emission[part.material]
+                                    : AreaLight{.radiance = Vec3(0)});
     part.mesh += first_mesh;
     part.material += first_material;
     imported.parts.push_back(part);
@@ -231,13 +234,14 @@ std::vector<LightId> use_file(SceneReading& reading, const ImportedFile& file, c
       add_light(scaled(moved(light, copy), use.light_scale), light.name);
   std::unordered_map<MaterialId, LightId> emitters;
   for (std::size_t i = 0; i < file.parts.size(); ++i) {
-    if (file.emission[i] == Vec3(0)) continue;
+    if (file.emission[i].radiance == Vec3(0)) continue;
     const MaterialId material = file.parts[i].material;
     const auto [entry, is_new] = emitters.emplace(material, no_light);
-    if (is_new)
-      entry->second =
-          add_light({"", AreaLight{file.emission[i] * static_cast<float>(use.light_scale), false}},
-                    scene.materials[material].name);
+    if (is_new) {
+      AreaLight emission = file.emission[i];
+      emission.radiance *= static_cast<float>(use.light_scale);
+      entry->second = add_light({"", emission}, scene.materials[material].name);
+    }
     lights[i] = entry->second;
   }
   return lights;

@@ -43,7 +43,7 @@ inline constexpr std::size_t no_instance = ~std::size_t{0};
 // A mesh file, its meshes, materials and textures in the scene.
 struct ImportedFile {
   std::vector<MeshFilePart> parts;  // ids are the scene's
-  std::vector<Vec3> emission;       // per part
+  std::vector<AreaLight> emission;  // per part
   std::vector<NamedCamera> cameras;
   std::vector<Light> lights;
 };
