@@ -36,7 +36,7 @@ double available_memory() {
 void check_memory_for(const FilmSettings& film) {
   const double width = film.crop ? film.crop->width() : film.width;
   const double height = film.crop ? film.crop->height() : film.height;
-  const double needed = width * height * sizeof(FilmPixel);
+  const double needed = width * height * static_cast<double>(bytes_per_pixel(film));
   const double available = available_memory();
   if (needed <= available) return;
   constexpr double gigabyte = 1e9;

@@ -74,11 +74,12 @@ void check_format(const RenderArguments& arguments, const fs::path& output) {
 }
 
 // A scene with layers may well be rendered to a PNG file, to look at.
-void warn_of_layers(const FilmSettings& film, const fs::path& output, Warnings& warnings) {
-  if ((film.albedo || film.normal || film.depth || film.variance) &&
-      lower_extension(output) != ".exr")
+void leave_out_layers(FilmSettings& film, const fs::path& output, Warnings& warnings) {
+  if (lower_extension(output) == ".exr") return;
+  if (film.albedo || film.normal || film.depth || film.variance)
     warnings.add(
         fmt::format("{} has no room for the 'channels' of film; .exr files have", output.string()));
+  film.albedo = film.normal = film.depth = film.variance = false;
 }
 
 // What will look wrong for another reason than too few samples.
@@ -200,7 +201,7 @@ ExitCode run_render(const RenderArguments& arguments) {
     if (!arguments.quiet) say(fmt::format("{}: no errors\n", arguments.scene.string()));
     return ExitCode::done;
   }
-  warn_of_layers(scene.film, output, warnings);
+  leave_out_layers(scene.film, output, warnings);
   check_memory_for(scene.film);
   const World world = make_world(scene);
   warnings.add(world.warnings);
@@ -248,7 +249,7 @@ ExitCode run_render(const RenderArguments& arguments) {
     report.triangles = world.triangles().size();
     report.counts = result.counts;
     report.scene_bytes = world.bytes();
-    report.film_bytes = result.film.pixels.size() * sizeof(FilmPixel);
+    report.film_bytes = result.film.bytes();
     report.accelerator_bytes = acceleration.accelerator->memory();
     report.influence_areas = report_areas(acceleration);
     report.error = estimate_error(result.film);

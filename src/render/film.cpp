@@ -14,6 +14,14 @@ Image image_of(const Film& film, const Value& value) {
   return image;
 }
 
+template <class Value>
+Image image_of_features(const Film& film, const Value& value) {
+  auto features = film.features.begin();
+  return image_of(film, [&](const FilmPixel& pixel) {
+    return features == film.features.end() ? DVec3{0} : value(pixel, *features++);
+  });
+}
+
 DVec3 over(const DVec3& sum, std::uint32_t count) {
   return count > 0 ? sum / static_cast<double>(count) : DVec3{0};
 }
@@ -29,20 +37,31 @@ DVec3 variance_of_mean(const FilmPixel& pixel) {
 
 }  // namespace
 
+bool keeps_features(const FilmSettings& settings) {
+  return settings.albedo || settings.normal || settings.depth;
+}
+
+std::size_t bytes_per_pixel(const FilmSettings& settings) {
+  return sizeof(FilmPixel) + (keeps_features(settings) ? sizeof(FilmFeatures) : 0);
+}
+
 Image radiance_of(const Film& film) {
   return image_of(film, [](const FilmPixel& p) { return over(p.radiance(), p.samples); });
 }
 
 Image albedo_of(const Film& film) {
-  return image_of(film, [](const FilmPixel& p) { return over(p.albedo, p.samples); });
+  return image_of_features(
+      film, [](const FilmPixel& p, const FilmFeatures& f) { return over(f.albedo, p.samples); });
 }
 
 Image normal_of(const Film& film) {
-  return image_of(film, [](const FilmPixel& p) { return over(p.normal, p.samples); });
+  return image_of_features(
+      film, [](const FilmPixel& p, const FilmFeatures& f) { return over(f.normal, p.samples); });
 }
 
 Image depth_of(const Film& film) {
-  return image_of(film, [](const FilmPixel& p) { return over(DVec3{p.depth}, p.hits); });
+  return image_of_features(
+      film, [](const FilmPixel& p, const FilmFeatures& f) { return over(DVec3{f.depth}, p.hits); });
 }
 
 Image variance_of(const Film& film) { return image_of(film, variance_of_mean); }

@@ -331,6 +331,7 @@ void PathTracer::accumulate(const PixelRect& tile, int count, PathBatch& batch, 
   for (int y = tile.y0; y < tile.y1; ++y) {
     for (int x = tile.x0; x < tile.x1; ++x) {
       FilmPixel& pixel = film.at(x, y);
+      FilmFeatures* const features = film.features_at(x, y);
       for (int k = 0; k < count; ++k, ++i) {
         const PathSample& sample = batch.samples[i];
         if (!acceptable(sample.radiance)) {
@@ -338,12 +339,13 @@ void PathTracer::accumulate(const PixelRect& tile, int count, PathBatch& batch, 
           continue;
         }
         pixel.add_radiance(DVec3(sample.radiance));
-        pixel.albedo += DVec3(sample.albedo);
-        pixel.normal += DVec3(sample.normal);
-        if (sample.depth >= 0) {
-          pixel.depth += static_cast<double>(sample.depth);
-          ++pixel.hits;
+        const bool hit = sample.depth >= 0;
+        if (features != nullptr) {
+          features->albedo += DVec3(sample.albedo);
+          features->normal += DVec3(sample.normal);
+          if (hit) features->depth += static_cast<double>(sample.depth);
         }
+        if (hit) ++pixel.hits;
         ++pixel.samples;
       }
     }

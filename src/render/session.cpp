@@ -30,11 +30,12 @@ PixelRect pixels_of(const FilmSettings& film) {
   return rect;
 }
 
-Film black_film(const PixelRect& rect) {
+Film black_film(const FilmSettings& settings) {
   Film film;
-  film.rect = rect;
-  film.pixels.resize(static_cast<std::size_t>(rect.width()) *
-                     static_cast<std::size_t>(rect.height()));
+  film.rect = pixels_of(settings);
+  film.pixels.resize(static_cast<std::size_t>(film.rect.width()) *
+                     static_cast<std::size_t>(film.rect.height()));
+  if (keeps_features(settings)) film.features.resize(film.pixels.size());
   return film;
 }
 
@@ -96,7 +97,7 @@ std::string described(const PixelRect& rect) {
 struct RenderSession::Impl {
   Impl(const World& world, const Accelerator& accelerator, const FilmSettings& film_settings,
        const RenderSettings& settings, const SessionOptions& options)
-      : film(black_film(pixels_of(film_settings))),
+      : film(black_film(film_settings)),
         tiles(tiles_of(film.rect)),
         textures(world.textures),
         tracer(world, accelerator, textures, film_settings, settings, options.count_traversal),
@@ -165,6 +166,10 @@ void RenderSession::restore(Film film) {
   if (film.pixels.size() != impl_->film.pixels.size())
     throw std::invalid_argument("a film of " + described(other) + " holds " +
                                 std::to_string(film.pixels.size()));
+  if (film.features.size() != impl_->film.features.size())
+    throw std::invalid_argument("a film of " + described(other) + " holds features of " +
+                                std::to_string(film.features.size()) + " in place of " +
+                                std::to_string(impl_->film.features.size()));
   impl_->film = std::move(film);
 }
 

@@ -190,6 +190,22 @@ TEST_CASE("EXR files say how they were made and hold the layers asked for") {
   CHECK(OIIO::ImageInput::open("half.exr")->spec().channelformat(0) == OIIO::TypeHalf);
 }
 
+TEST_CASE("a film keeps what layers take only where they are asked for") {
+  const CurrentTemporaryFolder folder;
+  write_file("scene.yaml", small_scene);
+  const auto film_bytes = [](const char* output, const char* channels) {
+    render({"scene.yaml", "-o", output, "-D", std::string("film.channels=") + channels, "--stats",
+            "stats.json"});
+    return read_json("stats.json")["memory_bytes"]["film"].get<int>();
+  };
+  constexpr int pixels = 32 * 24;
+  CHECK(film_bytes("plain.exr", "[]") == 80 * pixels);
+  CHECK(film_bytes("variance.exr", "[variance]") == 80 * pixels);
+  CHECK(film_bytes("layers.exr", "[albedo, normal, depth, variance]") == 136 * pixels);
+  CHECK(film_bytes("layers.png", "[albedo, normal, depth, variance]") == 80 * pixels);
+  CHECK(identical("plain.exr", "layers.exr"));
+}
+
 TEST_CASE("PNG files have 16 bits with --png-bits, and no room for layers, which is said") {
   const CurrentTemporaryFolder folder;
   write_file("scene.yaml", small_scene);

@@ -35,10 +35,10 @@ TEST_CASE("means and variances of pixels") {
   Film film = make_film(2, 1);
   FilmPixel& pixel = film.at(0, 0);
   for (const double x : {1.0, 2.0, 6.0}) add(pixel, {x, 2 * x, 0});
-  pixel.albedo = {1.5, 3, 0};
-  pixel.normal = {0, 3, 0};
-  pixel.depth = 10;
   pixel.hits = 2;
+  CHECK(albedo_of(film).at(0, 0) == Vec3(0));
+  film.features.resize(2);
+  *film.features_at(0, 0) = {{1.5, 3, 0}, {0, 3, 0}, 10};
   CHECK(radiance_of(film).at(0, 0) == Vec3(3, 6, 0));
   CHECK(radiance_of(film).at(1, 0) == Vec3(0));
   CHECK(albedo_of(film).at(0, 0) == Vec3(0.5F, 1, 0));

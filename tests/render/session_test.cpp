@@ -54,8 +54,8 @@ Tiles all_tiles(const RenderSession& session) {
 
 bool same_to_the_last_bit(const Film& a, const Film& b) {
   return a.rect.x0 == b.rect.x0 && a.rect.x1 == b.rect.x1 && a.rect.y0 == b.rect.y0 &&
-         a.rect.y1 == b.rect.y1 && identical(a, b) &&
-         std::ranges::equal(a.pixels, b.pixels, {}, &FilmPixel::depth, &FilmPixel::depth);
+         a.rect.y1 == b.rect.y1 && identical(a, b) && a.features.size() == a.pixels.size() &&
+         a.features == b.features;
 }
 
 // The pixels of a tile, by how many samples they have; all the same, or -1.
@@ -163,6 +163,10 @@ TEST_CASE("a film of other pixels is refused") {
   Film torn = own;
   torn.pixels.pop_back();
   CHECK_THROWS_WITH(session.restore(torn), "a film of 80 x 70 pixels from (7, 11) holds 5599");
+  Film plain = own;
+  plain.features.clear();
+  CHECK_THROWS_WITH(session.restore(plain),
+                    "a film of 80 x 70 pixels from (7, 11) holds features of 0 in place of 5600");
   CHECK(same_to_the_last_bit(session.film(), own));
 }
 

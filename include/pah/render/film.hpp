@@ -15,9 +15,6 @@ struct FilmPixel {
   DVec3 sum{0};
   DVec3 rest{0};  // what rounding has kept from `sum`
   DVec3 sum_of_squares{0};
-  DVec3 albedo{0};  // sums, at the first non-specular surface
-  DVec3 normal{0};
-  double depth = 0;  // sum of distances from the camera, over `hits`
   std::uint32_t samples = 0;
   std::uint32_t hits = 0;  // samples whose camera ray met a surface
 
@@ -34,12 +31,29 @@ struct FilmPixel {
   [[nodiscard]] DVec3 radiance() const { return sum + rest; }  // of all samples
 };
 
+// What further layers take of a pixel.
+struct FilmFeatures {
+  DVec3 albedo{0};  // sums, at the first non-specular surface
+  DVec3 normal{0};
+  double depth = 0;  // sum of distances from the camera, over the pixel's `hits`
+
+  [[nodiscard]] bool operator==(const FilmFeatures&) const = default;
+};
+
 struct Film {
   PixelRect rect;  // the pixels held, in picture coordinates
   std::vector<FilmPixel> pixels;
+  std::vector<FilmFeatures> features;  // of each pixel; none if no layer takes them
 
   [[nodiscard]] FilmPixel& at(int x, int y) { return pixels[index(x, y)]; }
   [[nodiscard]] const FilmPixel& at(int x, int y) const { return pixels[index(x, y)]; }
+  // Null if the film keeps none.
+  [[nodiscard]] FilmFeatures* features_at(int x, int y) {
+    return features.empty() ? nullptr : &features[index(x, y)];
+  }
+  [[nodiscard]] std::size_t bytes() const {
+    return pixels.size() * sizeof(FilmPixel) + features.size() * sizeof(FilmFeatures);
+  }
 
  private:
   [[nodiscard]] std::size_t index(int x, int y) const {
@@ -48,7 +62,13 @@ struct Film {
   }
 };
 
-// Means. A pixel without samples is black.
+// Whether a film keeps features: some layer that the settings ask for takes them.
+[[nodiscard]] bool keeps_features(const FilmSettings& settings);
+
+// Of a film's memory, for each pixel.
+[[nodiscard]] std::size_t bytes_per_pixel(const FilmSettings& settings);
+
+// Means. A pixel without samples is black, as are features that the film does not keep.
 [[nodiscard]] Image radiance_of(const Film& film);
 [[nodiscard]] Image albedo_of(const Film& film);
 [[nodiscard]] Image normal_of(const Film& film);

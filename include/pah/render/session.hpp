@@ -69,7 +69,7 @@ class RenderSession {
 
   // Goes on from a film of an earlier session; only its caller knows which samples it holds. Not
   // during a pass. Throws std::invalid_argument, and keeps the film that is there, if the other is
-  // not of the same pixels.
+  // not of the same pixels, or keeps features where this does not.
   void restore(Film film);
 
   // The film, without a copy, of a session that is not needed any more.
