@@ -2,7 +2,6 @@
 #include <array>
 #include <pah/accel/accelerator.hpp>
 
-#include "accel/batch.hpp"
 #include "geometry/ray_triangle.hpp"
 
 namespace pah {
@@ -77,7 +76,7 @@ class BruteForce final : public Accelerator {
       for (std::size_t axis = 0; axis < 3; ++axis) {
         const int k = static_cast<int>(axis);
         const auto& planes = boxes_[group].planes[axis];
-        const std::size_t near_side = ray.negative[axis];
+        const std::size_t near_side = ray.negative(k) ? 1 : 0;
         const std::size_t far_side = 1 - near_side;
         const float near_origin = ray.plane_origin[near_side][k];
         const float far_origin = ray.plane_origin[far_side][k];

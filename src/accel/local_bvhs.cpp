@@ -15,9 +15,9 @@
 #include <utility>
 #include <variant>
 
-#include "accel/batch.hpp"
 #include "accel/build_local.hpp"
 #include "geometry/mix_bits.hpp"
+#include "geometry/ray_box.hpp"
 
 namespace pah {
 
@@ -34,13 +34,12 @@ struct Area {
   LocalStructure structure;
 
   // Up to which t the local BVH's answer is certain; nothing if the ray does not start inside.
-  [[nodiscard]] std::optional<float> reach(const Ray& ray, const PreparedRay& prepared,
-                                           const Aabb& scene) const {
+  [[nodiscard]] std::optional<float> reach(const Ray& ray, const Aabb& scene) const {
     if (!contains(region, ray.origin)) return {};
     constexpr float everywhere = std::numeric_limits<float>::infinity();
     if (holds_scene || ends_at_eye(ray)) return everywhere;
     const float exit = exit_distance(region, ray);
-    return intersect_box(prepared, scene).far <= exit ? everywhere : exit;
+    return intersect_box(prepare(ray), scene).far <= exit ? everywhere : exit;
   }
 
  private:
@@ -86,6 +85,15 @@ bool is_sampled(const Ray& ray) {
   return hash % one_in == 0;
 }
 
+constexpr std::size_t batch_size = 64;
+
+// Calls `trace(batch, first)` for successive runs of `rays`.
+template <typename Trace>
+void for_batches(std::span<const Ray> rays, const Trace& trace) {
+  for (std::size_t first = 0; first < rays.size(); first += batch_size)
+    trace(rays.subspan(first, std::min(batch_size, rays.size() - first)), first);
+}
+
 class LocalBvhsOverGlobal final : public LocalBvhs {
  public:
   LocalBvhsOverGlobal(const Triangles& triangles, const std::vector<LocalArea>& areas,
@@ -102,32 +110,29 @@ class LocalBvhsOverGlobal final : public LocalBvhs {
 
   void closest_hit(std::span<const Ray> rays, std::span<Hit> hits,
                    TraversalCounts* counts) const override {
-    for_batches(rays, [&](std::span<const PreparedRay> batch, std::size_t first) {
+    for_batches(rays, [&](std::span<const Ray> batch, std::size_t first) {
       const std::span<Hit> found = hits.subspan(first, batch.size());
-      std::transform(batch.begin(), batch.end(), found.begin(), nothing_yet);
       const auto trace = [&](const auto& structure, const Lanes& lanes, TraversalCounts* spent) {
         std::array<Hit, batch_size> local;
-        for (std::size_t k = 0; k < lanes.count; ++k) local[k] = nothing_yet(lanes.rays[k]);
         closest_hits(structure, lanes.span(), std::span(local.data(), lanes.count), spent);
-        for (std::size_t k = 0; k < lanes.count; ++k) found[lanes.index[k]] = finished(local[k]);
+        for (std::size_t k = 0; k < lanes.count; ++k) found[lanes.index[k]] = local[k];
         return [found](std::size_t i) { return found[i].valid(); };
       };
-      answer(rays.subspan(first, batch.size()), batch, counts, trace);
+      answer(batch, counts, trace);
     });
   }
 
   void occluded(std::span<const Ray> rays, std::span<std::uint8_t> results,
                 TraversalCounts* counts) const override {
-    std::fill_n(results.begin(), rays.size(), std::uint8_t{0});
-    for_batches(rays, [&](std::span<const PreparedRay> batch, std::size_t first) {
+    for_batches(rays, [&](std::span<const Ray> batch, std::size_t first) {
       const std::span<std::uint8_t> found = results.subspan(first, batch.size());
       const auto trace = [&](const auto& structure, const Lanes& lanes, TraversalCounts* spent) {
-        std::array<std::uint8_t, batch_size> local{};
+        std::array<std::uint8_t, batch_size> local;
         pah::occluded(structure, lanes.span(), std::span(local.data(), lanes.count), spent);
         for (std::size_t k = 0; k < lanes.count; ++k) found[lanes.index[k]] = local[k];
         return [found](std::size_t i) { return found[i] != 0; };
       };
-      answer(rays.subspan(first, batch.size()), batch, counts, trace);
+      answer(batch, counts, trace);
     });
   }
 
@@ -158,15 +163,15 @@ class LocalBvhsOverGlobal final : public LocalBvhs {
 
   // Some rays of a batch, side by side.
   struct Lanes {
-    std::array<PreparedRay, batch_size> rays;
+    std::array<Ray, batch_size> rays;
     std::array<std::size_t, batch_size> index;  // in the batch
     std::size_t count = 0;
 
-    void add(const PreparedRay& ray, std::size_t i) {
+    void add(const Ray& ray, std::size_t i) {
       rays[count] = ray;
       index[count++] = i;
     }
-    [[nodiscard]] std::span<const PreparedRay> span() const { return {rays.data(), count}; }
+    [[nodiscard]] std::span<const Ray> span() const { return {rays.data(), count}; }
   };
 
   struct Assignment {
@@ -198,12 +203,12 @@ class LocalBvhsOverGlobal final : public LocalBvhs {
   }
 
   // The first area of the ray's bundle that holds its origin.
-  [[nodiscard]] Assignment assign(const Ray& ray, const PreparedRay& prepared) const {
+  [[nodiscard]] Assignment assign(const Ray& ray) const {
     const auto first = std::lower_bound(
         order_.begin(), order_.end(), ray.bundle,
         [&](std::uint32_t i, std::uint32_t bundle) { return bundle_of(i) < bundle; });
     for (auto i = first; i != order_.end() && bundle_of(*i) == ray.bundle; ++i) {
-      if (const auto reach = areas_[*i].reach(ray, prepared, bounds_)) return {*i, *reach};
+      if (const auto reach = areas_[*i].reach(ray, bounds_)) return {*i, *reach};
     }
     return {};
   }
@@ -211,11 +216,10 @@ class LocalBvhsOverGlobal final : public LocalBvhs {
   // Calls `trace(structure, lanes, counts)` for the rays of each area, then for those that are
   // still open. It returns a function that tells whether ray i of the batch has hit something.
   template <typename Trace>
-  void answer(std::span<const Ray> rays, std::span<const PreparedRay> batch,
-              TraversalCounts* counts, const Trace& trace) const {
+  void answer(std::span<const Ray> batch, TraversalCounts* counts, const Trace& trace) const {
     std::array<Assignment, batch_size> assigned;
     for (std::size_t i = 0; i < batch.size(); ++i) {
-      if (rays[i].bundle != no_bundle) assigned[i] = assign(rays[i], batch[i]);
+      if (batch[i].bundle != no_bundle) assigned[i] = assign(batch[i]);
     }
     Lanes open;
     std::array<bool, batch_size> done{};
@@ -233,7 +237,7 @@ class LocalBvhsOverGlobal final : public LocalBvhs {
         lanes.rays[lanes.count - 1].t_max = std::min(batch[k].t_max, assigned[k].reach);
         done[k] = true;
       }
-      if (counts != nullptr) sample(rays, lanes, batch, area, trace);
+      if (counts != nullptr) sample(lanes, batch, area, trace);
       TraversalCounts spent;
       const auto hit = std::visit(
           [&](const auto& structure) {
@@ -257,11 +261,11 @@ class LocalBvhsOverGlobal final : public LocalBvhs {
 
   // What it writes as answers is written again by those who are asked for them.
   template <typename Trace>
-  void sample(std::span<const Ray> rays, const Lanes& lanes, std::span<const PreparedRay> batch,
-              std::uint32_t area, const Trace& trace) const {
+  void sample(const Lanes& lanes, std::span<const Ray> batch, std::uint32_t area,
+              const Trace& trace) const {
     Lanes sampled;
     for (const std::size_t i : std::span(lanes.index).first(lanes.count)) {
-      if (is_sampled(rays[i])) sampled.add(batch[i], i);
+      if (is_sampled(batch[i])) sampled.add(batch[i], i);
     }
     if (sampled.count == 0) return;
     TraversalCounts spent;

@@ -84,13 +84,12 @@ struct Bvh {
 [[nodiscard]] Bvh collapse(const BinaryTree& tree, std::span<const float> areas,
                            const Triangles& triangles, std::span<const std::uint32_t> subset);
 
-// hits[i] becomes the nearest of itself and the BVH's triangles; it is asked for as no triangle at
-// the t to search up to.
-void closest_hits(const Bvh& bvh, std::span<const PreparedRay> rays, std::span<Hit> hits,
+// hits[i] becomes the nearest hit of ray i, or an invalid one.
+void closest_hits(const Bvh& bvh, std::span<const Ray> rays, std::span<Hit> hits,
                   TraversalCounts* counts);
 
-// results[i] becomes 1 if ray i hits anything; rays whose result is 1 already are skipped.
-void occluded(const Bvh& bvh, std::span<const PreparedRay> rays, std::span<std::uint8_t> results,
+// results[i] becomes 1 if ray i hits anything, else 0.
+void occluded(const Bvh& bvh, std::span<const Ray> rays, std::span<std::uint8_t> results,
               TraversalCounts* counts);
 
 }  // namespace pah

@@ -43,9 +43,10 @@ struct NodeRay {
       inverse[axis] = hn::Set(d, ray.node_inverse[axis]);
       near_offset[axis] = hn::Set(d, ray.near_offset[axis]);
       far_offset[axis] = hn::Set(d, ray.far_offset[axis]);
-      const std::size_t plane = 2 * static_cast<std::size_t>(axis);
-      near_planes[axis] = (plane + ray.negative[axis]) * BvhNode::width;
-      far_planes[axis] = (plane + 1 - ray.negative[axis]) * BvhNode::width;
+      const std::size_t planes = 2 * static_cast<std::size_t>(axis) * BvhNode::width;
+      const std::size_t upper = std::bit_cast<std::uint32_t>(ray.node_inverse[axis]) >> 31U;
+      near_planes[axis] = planes + upper * BvhNode::width;
+      far_planes[axis] = planes + (1 - upper) * BvhNode::width;
     }
   }
 
@@ -99,25 +100,20 @@ struct TriangleRay {
   using D = hn::CappedTag<float, TriangleBlock::width>;
   using V = hn::Vec<D>;
   const PreparedRay& ray;
-  V origin[3];
-  V shear[2];
-  std::size_t axes[3];  // where in a vertex, in floats
 
-  HWY_INLINE explicit TriangleRay(const PreparedRay& prepared) : ray(prepared) {
-    const D d;
-    for (int i = 0; i < 3; ++i) {
-      origin[i] = hn::Set(d, ray.origin[i]);
-      axes[i] = ray.axes[static_cast<std::size_t>(i)] * TriangleBlock::width;
-    }
-    shear[0] = hn::Set(d, ray.shear_x);
-    shear[1] = hn::Set(d, ray.shear_y);
-  }
+  HWY_INLINE explicit TriangleRay(const PreparedRay& prepared) : ray(prepared) {}
 
   // Which triangles pass the signs of the edge functions and have an interval within the limit.
   // They are few, and the rest of the shared rule decides them.
   HWY_INLINE std::uint32_t maybe_hit(const TriangleBlock& block, float limit,
                                      SeenBlock& seen) const {
     const D d;
+    const std::size_t axes[3] = {ray.axes[0] * TriangleBlock::width,
+                                 ray.axes[1] * TriangleBlock::width,
+                                 ray.axes[2] * TriangleBlock::width};
+    const V origin[3] = {hn::Set(d, ray.origin[0]), hn::Set(d, ray.origin[1]),
+                         hn::Set(d, ray.origin[2])};
+    const V shear[2] = {hn::Set(d, ray.shear_x), hn::Set(d, ray.shear_y)};
     std::uint32_t hits = 0;
     for (std::size_t lane = 0; lane < TriangleBlock::width; lane += hn::Lanes(d)) {
       V x[3];
@@ -337,23 +333,37 @@ HWY_INLINE bool any(const Bvh& bvh, const PreparedRay& ray, TraversalCounts& cou
   return false;
 }
 
+// Calls `trace(prepared ray, i)` for every ray. They are prepared some at a time, all divisions of
+// which overlap.
+template <class Trace>
+HWY_INLINE void for_each_prepared(std::span<const Ray> rays, const Trace& trace) {
+  constexpr std::size_t at_a_time = 16;
+  PreparedRay prepared[at_a_time];
+  for (std::size_t first = 0; first < rays.size(); first += at_a_time) {
+    const std::size_t count = std::min(at_a_time, rays.size() - first);
+    for (std::size_t i = 0; i < count; ++i) prepared[i] = prepare(rays[first + i]);
+    for (std::size_t i = 0; i < count; ++i) trace(prepared[i], first + i);
+  }
+}
+
 template <bool counting>
-void closest_batch(const Bvh& bvh, std::span<const PreparedRay> rays, std::span<Hit> hits,
+void closest_batch(const Bvh& bvh, std::span<const Ray> rays, std::span<Hit> hits,
                    TraversalCounts& counts) {
-  for (std::size_t i = 0; i < rays.size(); ++i) {
-    closest<counting>(bvh, rays[i], hits[i], counts);
-  }
+  for_each_prepared(rays, [&](const PreparedRay& ray, std::size_t i) HWY_ATTR {
+    Hit best = nothing_yet(ray);
+    closest<counting>(bvh, ray, best, counts);
+    hits[i] = finished(best);
+  });
 }
 
 template <bool counting>
-void any_batch(const Bvh& bvh, std::span<const PreparedRay> rays, std::span<std::uint8_t> results,
+void any_batch(const Bvh& bvh, std::span<const Ray> rays, std::span<std::uint8_t> results,
                TraversalCounts& counts) {
-  for (std::size_t i = 0; i < rays.size(); ++i) {
-    if (results[i] == 0) results[i] = any<counting>(bvh, rays[i], counts) ? 1 : 0;
-  }
+  for_each_prepared(rays, [&](const PreparedRay& ray, std::size_t i)
+                              HWY_ATTR { results[i] = any<counting>(bvh, ray, counts) ? 1 : 0; });
 }
 
-void closest_kernel(const Bvh& bvh, std::span<const PreparedRay> rays, std::span<Hit> hits,
+void closest_kernel(const Bvh& bvh, std::span<const Ray> rays, std::span<Hit> hits,
                     TraversalCounts* counts) {
   TraversalCounts none;
   if (counts != nullptr) {
@@ -363,7 +373,7 @@ void closest_kernel(const Bvh& bvh, std::span<const PreparedRay> rays, std::span
   }
 }
 
-void any_kernel(const Bvh& bvh, std::span<const PreparedRay> rays, std::span<std::uint8_t> results,
+void any_kernel(const Bvh& bvh, std::span<const Ray> rays, std::span<std::uint8_t> results,
                 TraversalCounts* counts) {
   TraversalCounts none;
   if (counts != nullptr) {
@@ -386,15 +396,21 @@ HWY_EXPORT(closest_kernel);
 HWY_EXPORT(any_kernel);
 }  // namespace
 
-void closest_hits(const Bvh& bvh, std::span<const PreparedRay> rays, std::span<Hit> hits,
+void closest_hits(const Bvh& bvh, std::span<const Ray> rays, std::span<Hit> hits,
                   TraversalCounts* counts) {
-  if (bvh.nodes.empty()) return;
+  if (bvh.nodes.empty()) {
+    std::fill_n(hits.begin(), rays.size(), Hit{});
+    return;
+  }
   HWY_DYNAMIC_DISPATCH(closest_kernel)(bvh, rays, hits, counts);
 }
 
-void occluded(const Bvh& bvh, std::span<const PreparedRay> rays, std::span<std::uint8_t> results,
+void occluded(const Bvh& bvh, std::span<const Ray> rays, std::span<std::uint8_t> results,
               TraversalCounts* counts) {
-  if (bvh.nodes.empty()) return;
+  if (bvh.nodes.empty()) {
+    std::fill_n(results.begin(), rays.size(), std::uint8_t{0});
+    return;
+  }
   HWY_DYNAMIC_DISPATCH(any_kernel)(bvh, rays, results, counts);
 }
 

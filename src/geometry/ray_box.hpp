@@ -76,7 +76,9 @@ struct PreparedRay {
 
   float t_max = -1;  // no interval reaches below zero: such a ray hits nothing
   std::array<std::uint8_t, 3> axes{0, 1, 2};
-  std::array<std::uint8_t, 3> negative{};  // 1 where the direction is below zero (or -0)
+
+  // Whether upper planes are met first.
+  [[nodiscard, gnu::always_inline]] bool negative(int axis) const { return inverse[axis] < 0; }
 };
 
 // The directions that can be told from zero and infinity without losing digits, and how far from
@@ -99,18 +101,19 @@ inline constexpr float max_origin = 0x1p99F;
   return {box.min - node_rounding * glm::abs(box.min), box.max + node_rounding * glm::abs(box.max)};
 }
 
-[[nodiscard]] inline PreparedRay prepare(const Ray& ray) {
+// Inlined, as the rule is (ray_triangle.hpp).
+[[nodiscard, gnu::always_inline]] inline PreparedRay prepare(const Ray& ray) {
   PreparedRay prepared;
   const Float4 origin = float4(ray.origin);
   const Float4 direction = float4(ray.direction, 1);
   const Float4 size = abs(direction);
   const float largest = largest_of(size);
   const float far_away = largest_of(abs(origin));
-  // A sum is NaN if any summand is, and infinite or NaN if any is infinite.
-  const float length = size[0] + size[1] + size[2];
-  const float place = ray.origin.x + ray.origin.y + ray.origin.z;
-  const bool usable = length <= 3 * max_direction && largest >= min_direction &&
-                      far_away <= max_origin * largest && place == place && ray.t_max > 0;
+  // Zero, or NaN where anything is not finite.
+  const Float4 nothing = (origin - origin) + (direction - direction);
+  const bool usable = largest >= min_direction && largest <= max_direction &&
+                      far_away <= max_origin * largest && ray.t_max > 0 &&
+                      nothing[0] + nothing[1] + nothing[2] == 0;
   if (!usable) return prepared;
 
   constexpr float huge = std::numeric_limits<float>::max();
@@ -123,26 +126,25 @@ inline constexpr float max_origin = 0x1p99F;
       1 / with_sign_of(max(size, splat(smallest_component * largest)), direction);
   const Float4 low_offset = (low + node_rounding * abs(low)) * node_inverse;
   const Float4 high_offset = (high - node_rounding * abs(high)) * node_inverse;
-  const Int4 negative = inverse < 0;
   prepared.plane_origin = {low, high};
   prepared.inverse = inverse;
   prepared.node_inverse = node_inverse;
-  prepared.near_offset = -(negative ? high_offset : low_offset) - tiny;
-  prepared.far_offset = -(negative ? low_offset : high_offset) + tiny;
-  for (std::size_t i = 0; i < 3; ++i)
-    prepared.negative[i] = static_cast<std::uint8_t>(negative[i] & 1);
+  // The lower plane is seen from higher up: it is met first where its offset is the larger one.
+  prepared.near_offset = -max(low_offset, high_offset) - tiny;
+  prepared.far_offset = tiny - min(low_offset, high_offset);
 
-  const std::uint8_t z = size[0] == largest ? 0 : size[1] == largest ? 1 : 2;
+  const std::size_t z = size[0] == largest ? 0 : size[1] == largest ? 1 : 2;
   constexpr std::array<std::uint8_t, 5> cycle{0, 1, 2, 0, 1};
-  const std::uint8_t x = cycle[z + 1U];
-  const std::uint8_t y = cycle[z + 2U];
-  const float* const origins = &ray.origin.x;
-  const float* const directions = &ray.direction.x;
-  prepared.axes = {x, y, z};
-  for (std::size_t i = 0; i < 3; ++i) prepared.origin[i] = origins[prepared.axes[i]];
-  prepared.scale_z = std::min(std::max(1 / directions[z], -huge), huge);
-  prepared.shear_x = directions[x] * prepared.scale_z;
-  prepared.shear_y = directions[y] * prepared.scale_z;
+  const std::size_t x = cycle[z + 1];
+  const std::size_t y = cycle[z + 2];
+  prepared.axes = {static_cast<std::uint8_t>(x), static_cast<std::uint8_t>(y),
+                   static_cast<std::uint8_t>(z)};
+  prepared.origin[0] = origin[x];
+  prepared.origin[1] = origin[y];
+  prepared.origin[2] = origin[z];
+  prepared.scale_z = inverse[z];
+  prepared.shear_x = direction[x] * prepared.scale_z;
+  prepared.shear_y = direction[y] * prepared.scale_z;
   prepared.t_max = std::min(ray.t_max, huge);
   return prepared;
 }
@@ -158,7 +160,7 @@ struct SlabInterval {
   for (int i = 0; i < 3; ++i) {
     const float low = (box.min[i] - ray.plane_origin[0][i]) * ray.inverse[i];
     const float high = (box.max[i] - ray.plane_origin[1][i]) * ray.inverse[i];
-    const bool negative = ray.negative[static_cast<std::size_t>(i)] != 0;
+    const bool negative = ray.negative(i);
     interval.near = std::max(interval.near, negative ? high : low);
     interval.far = std::min(interval.far, negative ? low : high);
   }

@@ -180,6 +180,16 @@ template <typename Real>
   return detail::accept(ray, interval, p, q, r, edge, t_limit, hit);
 }
 
+// A search starts with no triangle at t_max and ends, if none is found, at infinity.
+[[nodiscard, gnu::always_inline]] inline Hit nothing_yet(const PreparedRay& ray) {
+  Hit hit;
+  hit.t = ray.t_max;
+  return hit;
+}
+[[nodiscard, gnu::always_inline]] inline Hit finished(const Hit& hit) {
+  return hit.valid() ? hit : Hit{};
+}
+
 // Keeps the nearer of `best` and a hit at no larger t: the lower index where t is equal.
 [[gnu::always_inline]] inline void keep_nearer(const TriangleHit& hit, std::uint32_t index,
                                                Hit& best) {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "accel/batch.hpp"
+#include "bvh/bvh.hpp"
 #include "parallel/parallel_for.hpp"
 #include "render/camera_rays.hpp"
 
@@ -17,8 +17,8 @@ PictureCosts measure_costs(const Bvh& bvh, const Camera& camera, const FilmSetti
     const int y = static_cast<int>(row);
     for (int x = 0; x < film.width; ++x) {
       // By itself, so that the counts are its own.
-      const PreparedRay ray = prepare(camera_rays.central(x, y));
-      Hit hit = nothing_yet(ray);
+      const Ray ray = camera_rays.central(x, y);
+      Hit hit;
       TraversalCounts counts;
       closest_hits(bvh, std::span(&ray, 1), std::span(&hit, 1), &counts);
       costs.rays[row * width + static_cast<std::size_t>(x)] = {

@@ -65,11 +65,11 @@ Outcome trace_grazing_rays(std::uint32_t triangles) {
     const Bvh bvh = build_bvh(soup.triangles()).bvh;
     const Aabb box = padded(triangle.bounds());
     for (int k = 0; k < 200; ++k) {
-      const PreparedRay ray = prepare(grazing_ray(box, random));
-      const SlabInterval interval = intersect_box(ray, box);
-      const bool meets = interval.near <= std::min(interval.far, ray.t_max);
+      const Ray ray = grazing_ray(box, random);
+      const PreparedRay prepared = prepare(ray);
+      const SlabInterval interval = intersect_box(prepared, box);
+      const bool meets = interval.near <= std::min(interval.far, prepared.t_max);
       Hit hit;
-      hit.t = ray.t_max;
       TraversalCounts counts;
       closest_hits(bvh, {&ray, 1}, {&hit, 1}, &counts);
       ++(meets ? outcome.met : outcome.missed);

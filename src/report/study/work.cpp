@@ -145,14 +145,11 @@ Tally count_closest(const StudyTree& tree, std::span<const BundleRay> rays, bool
 }
 
 double kernel_cost(const Bvh& bvh, std::span<const BundleRay> rays, std::uint32_t side_by_side) {
-  std::vector<PreparedRay> prepared(rays.size());
+  std::vector<Ray> asked(rays.size());
+  std::ranges::transform(rays, asked.begin(), ray_of);
   std::vector<Hit> hits(rays.size());
-  for (std::size_t i = 0; i < rays.size(); ++i) {
-    prepared[i] = prepare(ray_of(rays[i]));
-    hits[i].t = prepared[i].t_max;
-  }
   TraversalCounts counts;
-  closest_hits(bvh, prepared, hits, &counts);
+  closest_hits(bvh, asked, hits, &counts);
   return (double{box_cost} * static_cast<double>(counts.nodes) +
           double{triangle_cost} * static_cast<double>(counts.triangles) / side_by_side) /
          static_cast<double>(std::max<std::size_t>(rays.size(), 1));
