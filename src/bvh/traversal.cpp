@@ -76,22 +76,25 @@ struct NodeRay {
   }
 };
 
-// Triangles as a ray sees them, side by side.
-struct SeenBlock {
-  HWY_ALIGN float vertices[3][3][TriangleBlock::width];  // sheared
-  HWY_ALIGN float edges[3][TriangleBlock::width];
-  HWY_ALIGN float near[TriangleBlock::width];  // their own intervals
-  HWY_ALIGN float far[TriangleBlock::width];
+// The shared rule as it stands, for what the block's test leaves to it. Seldom called: kept out of
+// the loops, whose registers it would take.
+HWY_NOINLINE bool decide(const PreparedRay& ray, const TriangleBlock& block, std::size_t lane,
+                         float limit, TriangleHit& hit) {
+  return intersect_triangle(ray, block.triangle(lane), limit, hit);
+}
 
-  [[nodiscard]] HWY_INLINE detail::ShearedVertex vertex(std::size_t k, std::size_t lane) const {
-    return {vertices[k][0][lane], vertices[k][1][lane], vertices[k][2][lane]};
-  }
-  // The rest of the rule for one of them.
-  HWY_INLINE bool accept(const PreparedRay& ray, std::size_t lane, float t_limit,
-                         TriangleHit& hit) const {
-    return detail::accept(
-        ray, {near[lane], far[lane]}, vertex(0, lane), vertex(1, lane), vertex(2, lane),
-        detail::EdgeFunctions<float>(edges[0][lane], edges[1][lane], edges[2][lane]), t_limit, hit);
+// What is found of triangles side by side.
+struct BlockHits {
+  HWY_ALIGN float t[TriangleBlock::width];
+  HWY_ALIGN float u[TriangleBlock::width];
+  HWY_ALIGN float v[TriangleBlock::width];
+  std::uint32_t known = 0;  // bit i: triangle i is hit at t; else the rule is to be asked
+
+  HWY_INLINE bool accept(const PreparedRay& ray, const TriangleBlock& block, std::size_t lane,
+                         float limit, TriangleHit& hit) const {
+    if ((known >> lane & 1U) == 0) return decide(ray, block, lane, limit, hit);
+    hit = {t[lane], u[lane], v[lane]};
+    return hit.t <= limit;
   }
 };
 
@@ -103,10 +106,9 @@ struct TriangleRay {
 
   HWY_INLINE explicit TriangleRay(const PreparedRay& prepared) : ray(prepared) {}
 
-  // Which triangles pass the signs of the edge functions and have an interval within the limit.
-  // They are few, and the rest of the shared rule decides them.
+  // Which triangles are hit within the limit, or may be.
   HWY_INLINE std::uint32_t maybe_hit(const TriangleBlock& block, float limit,
-                                     SeenBlock& seen) const {
+                                     BlockHits& found) const {
     const D d;
     const std::size_t axes[3] = {ray.axes[0] * TriangleBlock::width,
                                  ray.axes[1] * TriangleBlock::width,
@@ -128,27 +130,42 @@ struct TriangleRay {
       const V a = hn::Sub(hn::Mul(x[2], y[1]), hn::Mul(y[2], x[1]));
       const V b = hn::Sub(hn::Mul(x[0], y[2]), hn::Mul(y[0], x[2]));
       const V c = hn::Sub(hn::Mul(x[1], y[0]), hn::Mul(y[1], x[0]));
-      const V least = hn::Min(hn::Min(a, b), c);
-      const V most = hn::Max(hn::Max(a, b), c);
-      const auto mixed = hn::And(hn::Lt(least, hn::Zero(d)), hn::Gt(most, hn::Zero(d)));
+      const auto mixed = hn::And(hn::Lt(hn::Min(hn::Min(a, b), c), hn::Zero(d)),
+                                 hn::Gt(hn::Max(hn::Max(a, b), c), hn::Zero(d)));
       if (hn::AllTrue(d, mixed)) continue;
       V near = hn::Zero(d);
       V far = hn::Set(d, std::numeric_limits<float>::infinity());
       narrow(block, lane, near, far);
-      const auto meets = hn::Le(near, hn::Min(far, hn::Set(d, limit)));
-      const std::uint32_t some = bits(d, hn::AndNot(mixed, meets));
+      const V end = hn::Min(far, hn::Set(d, limit));
+      const auto candidates = hn::AndNot(mixed, hn::Le(near, end));
+      if (hn::AllFalse(d, candidates)) continue;
+
+      const V one = hn::Set(d, 1.0F);
+      const V determinant = hn::Add(hn::Add(a, b), c);
+      const V inverse = hn::Div(one, determinant);
+      const V weight_a = hn::Min(hn::Mul(a, inverse), one);
+      const V weight_b = hn::Min(hn::Mul(b, inverse), one);
+      const V weight_c = hn::Min(hn::Mul(c, inverse), one);
+      const V depth = hn::Add(hn::Add(hn::Mul(weight_a, z[0]), hn::Mul(weight_b, z[1])),
+                              hn::Mul(weight_c, z[2]));
+      const V t = hn::Mul(depth, hn::Set(d, ray.scale_z));
+      const V hit_t = hn::Min(hn::Max(t, near), far);
+      // Most rays start next to a triangle that is just behind them: t < 0, if near is 0.
+      const auto meets =
+          hn::And(hn::Gt(hn::Max(t, near), hn::Zero(d)), hn::Le(hit_t, hn::Set(d, limit)));
+      const V least = hn::Min(hn::Min(hn::Abs(a), hn::Abs(b)), hn::Abs(c));
+      const V size = hn::Abs(determinant);
+      const auto easy = hn::And(hn::Gt(least, hn::Zero(d)),
+                                hn::And(hn::Ge(size, hn::Set(d, detail::least_determinant)),
+                                        hn::Le(size, hn::Set(d, detail::most_determinant))));
+      const std::uint32_t some = bits(d, hn::And(candidates, hn::Or(meets, hn::Not(easy))));
       if (some == 0) continue;
       hits |= some << lane;
-      for (int k = 0; k < 3; ++k) {
-        hn::Store(x[k], d, seen.vertices[k][0] + lane);
-        hn::Store(y[k], d, seen.vertices[k][1] + lane);
-        hn::Store(z[k], d, seen.vertices[k][2] + lane);
-      }
-      hn::Store(a, d, seen.edges[0] + lane);
-      hn::Store(b, d, seen.edges[1] + lane);
-      hn::Store(c, d, seen.edges[2] + lane);
-      hn::Store(near, d, seen.near + lane);
-      hn::Store(far, d, seen.far + lane);
+      found.known =
+          (lane == 0 ? 0 : found.known) | bits(d, hn::And(easy, hn::Gt(near, hn::Zero(d)))) << lane;
+      hn::Store(hit_t, d, found.t + lane);
+      hn::Store(weight_b, d, found.u + lane);
+      hn::Store(weight_c, d, found.v + lane);
     }
     return hits;
   }
@@ -231,7 +248,7 @@ HWY_INLINE void closest(const Bvh& bvh, const PreparedRay& ray, Hit& best,
                         TraversalCounts& counts) {
   const NodeRay nodes(ray);
   const TriangleRay triangles(ray);
-  SeenBlock seen;
+  BlockHits found;
   HWY_ALIGN float near[BvhNode::width];
   Entry stack[stack_size];
   Entry* top = stack;
@@ -280,11 +297,12 @@ HWY_INLINE void closest(const Bvh& bvh, const PreparedRay& ray, Hit& best,
       const TriangleBlock* block = &bvh.blocks[current.first_block()];
       for (std::uint32_t begin = 0; begin < count; begin += TriangleBlock::width, ++block) {
         if (counting) ++counts.blocks;
-        for (std::uint32_t hits = triangles.maybe_hit(*block, best.t, seen); hits != 0;
+        for (std::uint32_t hits = triangles.maybe_hit(*block, best.t, found); hits != 0;
              hits &= hits - 1) {
           const std::uint32_t lane = lowest_bit(hits);
           TriangleHit hit;
-          if (seen.accept(ray, lane, best.t, hit)) keep_nearer(hit, block->indices[lane], best);
+          if (found.accept(ray, *block, lane, best.t, hit))
+            keep_nearer(hit, block->indices[lane], best);
         }
       }
     }
@@ -301,7 +319,7 @@ template <bool counting>
 HWY_INLINE bool any(const Bvh& bvh, const PreparedRay& ray, TraversalCounts& counts) {
   const NodeRay nodes(ray);
   const TriangleRay triangles(ray);
-  SeenBlock seen;
+  BlockHits found;
   HWY_ALIGN float near[BvhNode::width];
   std::uint32_t stack[stack_size];
   std::uint32_t* top = stack;
@@ -323,9 +341,9 @@ HWY_INLINE bool any(const Bvh& bvh, const PreparedRay& ray, TraversalCounts& cou
       for (std::uint32_t begin = 0; begin < count; begin += TriangleBlock::width, ++block) {
         if (counting) ++counts.blocks;
         TriangleHit hit;
-        for (std::uint32_t hits = triangles.maybe_hit(*block, ray.t_max, seen); hits != 0;
+        for (std::uint32_t hits = triangles.maybe_hit(*block, ray.t_max, found); hits != 0;
              hits &= hits - 1) {
-          if (seen.accept(ray, lowest_bit(hits), ray.t_max, hit)) return true;
+          if (found.accept(ray, *block, lowest_bit(hits), ray.t_max, hit)) return true;
         }
       }
     }

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <bit>
 #include <cstdint>
+#include <cstring>
 #include <pah/geometry/vec.hpp>
 
 namespace pah {
@@ -16,6 +17,13 @@ using Int4 = std::int32_t __attribute__((vector_size(16)));
 [[nodiscard, gnu::always_inline]] inline Float4 splat(float x) { return Float4{x, x, x, x}; }
 [[nodiscard, gnu::always_inline]] inline Float4 float4(const Vec3& v, float w = 0) {
   return Float4{v.x, v.y, v.z, w};
+}
+
+// Of any alignment.
+[[nodiscard, gnu::always_inline]] inline Float4 load4(const float* four) {
+  Float4 loaded;
+  std::memcpy(&loaded, four, sizeof(loaded));
+  return loaded;
 }
 
 [[nodiscard, gnu::always_inline]] inline Float4 min(Float4 a, Float4 b) { return a < b ? a : b; }

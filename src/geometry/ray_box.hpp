@@ -104,8 +104,9 @@ inline constexpr float max_origin = 0x1p99F;
 // Inlined, as the rule is (ray_triangle.hpp).
 [[nodiscard, gnu::always_inline]] inline PreparedRay prepare(const Ray& ray) {
   PreparedRay prepared;
-  const Float4 origin = float4(ray.origin);
-  const Float4 direction = float4(ray.direction, 1);
+  const Float4 origin = load4(&ray.origin.x);  // and t_max
+  Float4 direction = load4(&ray.direction.x);
+  direction[3] = 1;  // lest the bundle be divided by
   const Float4 size = abs(direction);
   const float largest = largest_of(size);
   const float far_away = largest_of(abs(origin));

@@ -99,6 +99,10 @@ template <typename Real>
           double{std::max(std::abs(edge.a), std::max(std::abs(edge.b), std::abs(edge.c)))}};
 }
 
+// Where float loses no digits.
+inline constexpr float least_determinant = 0x1p-100F;
+inline constexpr float most_determinant = 0x1p100F;
+
 // How far t can be from the truth, at most (pbrt-v4, 6.8.5): what decides its sign.
 [[nodiscard, gnu::always_inline]] inline double distance_error(const ShearedVertex& p,
                                                                const ShearedVertex& q,
@@ -143,8 +147,8 @@ template <typename Real>
 
   // Doubles decide zeros, and take over where float would lose digits at the ends of its range.
   const float determinant = std::abs(edge.a + edge.b + edge.c);
-  const bool easy = edge.a != 0 && edge.b != 0 && edge.c != 0 && determinant >= 0x1p-100F &&
-                    determinant <= 0x1p100F;
+  const bool easy = edge.a != 0 && edge.b != 0 && edge.c != 0 && determinant >= least_determinant &&
+                    determinant <= most_determinant;
   Barycentrics weights;
   if (easy) {
     weights = barycentrics(edge);
@@ -157,6 +161,7 @@ template <typename Real>
 
   const float depth = weights.a * p.z + weights.b * q.z + weights.c * r.z;
   const float t = depth * ray.scale_z;
+  if (!(interval.near > 0 || t > 0)) return false;
   if (!(interval.near > 0 || double{t} > distance_error(p, q, r, ray.scale_z, weights)))
     return false;
   hit = {std::min(std::max(t, interval.near), interval.far), weights.b, weights.c};
