@@ -117,6 +117,7 @@ struct TriangleRay {
                          hn::Set(d, ray.origin[2])};
     const V shear[2] = {hn::Set(d, ray.shear_x), hn::Set(d, ray.shear_y)};
     std::uint32_t hits = 0;
+    found.known = 0;
     for (std::size_t lane = 0; lane < TriangleBlock::width; lane += hn::Lanes(d)) {
       V x[3];
       V y[3];
@@ -161,8 +162,7 @@ struct TriangleRay {
       const std::uint32_t some = bits(d, hn::And(candidates, hn::Or(meets, hn::Not(easy))));
       if (some == 0) continue;
       hits |= some << lane;
-      found.known =
-          (lane == 0 ? 0 : found.known) | bits(d, hn::And(easy, hn::Gt(near, hn::Zero(d)))) << lane;
+      found.known |= bits(d, hn::And(easy, hn::Gt(near, hn::Zero(d)))) << lane;
       hn::Store(hit_t, d, found.t + lane);
       hn::Store(weight_b, d, found.u + lane);
       hn::Store(weight_c, d, found.v + lane);
