@@ -156,9 +156,8 @@ std::vector<RateRow> measure_rates(
     if (progress)
       progress(static_cast<double>(i) / static_cast<double>(scenes.size()),
                scene.name + ", rays a second");
-    Scene settings = scene.settings;
+    const Scene& settings = scene.settings;
     const std::uint64_t rays = config.quick ? 10'000 : 100'000;
-    make_small(settings.film, settings.render, rays);
     const std::vector<NamedAccelerator> accelerators = accelerators_of(scene.world, settings);
     const RecordedRays recorded = record_rays(scene.world, *accelerators.front().accelerator,
                                               settings.film, settings.render, rays, config.seed);

@@ -3,14 +3,16 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <pah/render/render.hpp>
+#include <pah/render/session.hpp>
 #include <random>
 
 namespace pah {
 namespace {
 
-// As many as the benchmarks render: batches of 32 by 32 pixels, eight rays to a pixel.
-constexpr int samples = 8;
+// Whole tiles of a picture as large as the scene's send the batches of a real render, and rays that
+// lie as close together. So many pixels see enough of a scene.
+constexpr std::uint64_t pixels = 12 * 1024;
+constexpr double most_pixels = 1 << 20;  // of the picture: its film takes memory
 
 // Stands between the renderer and an accelerator. For one thread.
 class Recorder final : public Accelerator {
@@ -70,28 +72,51 @@ RayBatches thinned(const RayBatches& all, std::uint64_t most, std::uint64_t seed
   return some;
 }
 
-}  // namespace
-
-void make_small(FilmSettings& film, RenderSettings& render, std::uint64_t camera_rays) {
-  const double pixels = static_cast<double>(camera_rays) / samples;
-  const double aspect = static_cast<double>(film.width) / film.height;
-  const auto side = [](double length) {
-    return static_cast<int>(std::clamp(std::round(length), 1.0, 65536.0));
-  };
-  film.width = side(std::sqrt(pixels * aspect));
-  film.height = side(pixels / film.width);
-  film.crop.reset();
-  render.samples = samples;
+FilmSettings picture_of(const FilmSettings& film) {
+  FilmSettings picture = film;
+  picture.crop.reset();
+  const double all = static_cast<double>(film.width) * film.height;
+  const double scale = std::min(1.0, std::sqrt(most_pixels / all));
+  picture.width = std::max(1, static_cast<int>(film.width * scale));
+  picture.height = std::max(1, static_cast<int>(film.height * scale));
+  return picture;
 }
+
+// One of each of as many equal parts of the tiles as have the pixels.
+std::vector<std::size_t> some_tiles(std::span<const PixelRect> tiles, std::uint64_t seed) {
+  std::uint64_t all = 0;
+  for (const PixelRect& tile : tiles)
+    all += static_cast<std::uint64_t>(tile.width()) * tile.height();
+  const std::size_t count = std::clamp<std::size_t>(tiles.size() * pixels / all, 1, tiles.size());
+  std::mt19937_64 random(seed);
+  std::vector<std::size_t> some;
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t first = i * tiles.size() / count;
+    const std::size_t end = (i + 1) * tiles.size() / count;
+    some.push_back(first + random() % (end - first));
+  }
+  return some;
+}
+
+int samples_for(std::span<const PixelRect> tiles, std::span<const std::size_t> some,
+                std::uint64_t camera_rays) {
+  std::uint64_t count = 0;
+  for (const std::size_t i : some)
+    count += static_cast<std::uint64_t>(tiles[i].width()) * tiles[i].height();
+  return static_cast<int>(
+      std::clamp<std::uint64_t>(camera_rays / count, 1, RenderSession::batch_samples));
+}
+
+}  // namespace
 
 RecordedRays record_rays(const World& world, const Accelerator& accelerator,
                          const FilmSettings& film, const RenderSettings& render, std::uint64_t most,
                          std::uint64_t seed) {
   RecordedRays rays;
   const Recorder recorder(world, accelerator, rays);
-  RenderOptions options;
-  options.threads = 1;
-  (void)pah::render(world, recorder, film, render, options);
+  RenderSession session(world, recorder, picture_of(film), render, {.threads = 1});
+  const std::vector<std::size_t> tiles = some_tiles(session.tiles(), seed);
+  session.render_pass(tiles, 0, samples_for(session.tiles(), tiles, most));
   for (RayBatches* kind : {&rays.camera, &rays.bounce, &rays.shadow})
     *kind = thinned(*kind, most, seed);
   return rays;

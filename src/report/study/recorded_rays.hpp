@@ -14,11 +14,9 @@ struct RecordedRays {
   RayBatches shadow;
 };
 
-// A film of the same shape and as few samples as send about `camera_rays`.
-void make_small(FilmSettings& film, RenderSettings& render, std::uint64_t camera_rays);
-
-// Renders on one thread and listens. Of each kind no more than about `most` rays are kept, in whole
-// batches that the seed chooses.
+// Renders some tiles of the picture, spread over it, on one thread, and listens. Tiles and samples
+// are as many as send about `most` camera rays. Of other kinds no more than about as many are kept,
+// in whole batches. The seed chooses both.
 [[nodiscard]] RecordedRays record_rays(const World& world, const Accelerator& accelerator,
                                        const FilmSettings& film, const RenderSettings& render,
                                        std::uint64_t most, std::uint64_t seed);
