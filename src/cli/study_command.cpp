@@ -78,7 +78,9 @@ Subject load_study_mesh(const fs::path& file) {
     subject.mesh.positions = mesh.positions;
     subject.mesh.indices = mesh.triangles;
     check(subject.mesh, file);
-    take(staged(std::move(mesh)), subject);
+    Scene stage = make_stage();
+    put_on_stage(stage, std::move(mesh));
+    take(stage, subject);
   } catch (const MeshFileError& error) {
     fail({file.string(), error.line(), error.column()}, error.what(), error.excerpt());
   }

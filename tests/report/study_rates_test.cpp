@@ -18,7 +18,8 @@ StudyScene small_scene(bool with_area, double aperture_radius = 0) {
   Mesh mesh;
   mesh.positions = soup.positions;
   mesh.triangles = soup.indices;
-  Scene scene = staged(std::move(mesh));
+  Scene scene = make_stage();
+  put_on_stage(scene, std::move(mesh));
   std::get<PerspectiveCamera>(scene.camera).aperture_radius = aperture_radius;
   if (with_area)
     scene.influence_areas.declared = {

@@ -11,7 +11,7 @@ namespace {
 
 // Whole tiles of a picture as large as the scene's send the batches of a real render, and rays that
 // lie as close together. So many pixels see enough of a scene.
-constexpr std::uint64_t pixels = 12 * 1024;
+constexpr std::uint64_t recorded_pixels = 12 * 1024;
 constexpr double most_pixels = 1 << 20;  // of the picture: its film takes memory
 
 // Stands between the renderer and an accelerator. For one thread.
@@ -82,12 +82,16 @@ FilmSettings picture_of(const FilmSettings& film) {
   return picture;
 }
 
+std::uint64_t pixels_of(const PixelRect& tile) {
+  return static_cast<std::uint64_t>(tile.width()) * static_cast<std::uint64_t>(tile.height());
+}
+
 // One of each of as many equal parts of the tiles as have the pixels.
 std::vector<std::size_t> some_tiles(std::span<const PixelRect> tiles, std::uint64_t seed) {
   std::uint64_t all = 0;
-  for (const PixelRect& tile : tiles)
-    all += static_cast<std::uint64_t>(tile.width()) * tile.height();
-  const std::size_t count = std::clamp<std::size_t>(tiles.size() * pixels / all, 1, tiles.size());
+  for (const PixelRect& tile : tiles) all += pixels_of(tile);
+  const std::size_t count =
+      std::clamp<std::size_t>(tiles.size() * recorded_pixels / all, 1, tiles.size());
   std::mt19937_64 random(seed);
   std::vector<std::size_t> some;
   for (std::size_t i = 0; i < count; ++i) {
@@ -101,8 +105,7 @@ std::vector<std::size_t> some_tiles(std::span<const PixelRect> tiles, std::uint6
 int samples_for(std::span<const PixelRect> tiles, std::span<const std::size_t> some,
                 std::uint64_t camera_rays) {
   std::uint64_t count = 0;
-  for (const std::size_t i : some)
-    count += static_cast<std::uint64_t>(tiles[i].width()) * tiles[i].height();
+  for (const std::size_t i : some) count += pixels_of(tiles[i]);
   return static_cast<int>(
       std::clamp<std::uint64_t>(camera_rays / count, 1, RenderSession::batch_samples));
 }

@@ -21,7 +21,7 @@ glm::dmat4x3 on_the_floor(const Mesh& mesh) {
 
 }  // namespace
 
-Scene staged(Mesh mesh) {
+Scene make_stage() {
   Scene scene;
   scene.camera = PerspectiveCamera{{1.7, 1.8, 3.6}, {0, 0.9, 0}, {0, 1, 0}, 28, 0, {}};
   scene.film.width = scene.film.height = 128;
@@ -31,12 +31,15 @@ Scene staged(Mesh mesh) {
                   {"sun", DirectionalLight{{-1, -2, -1}, Vec3{3}, 0}}};
   scene.meshes.push_back(make_mesh(RectangleShape{{8, 8}}));
   scene.instances.emplace_back();
-  Instance instance;
-  instance.mesh = 1;
-  instance.world_from_object = on_the_floor(mesh);
-  scene.meshes.push_back(std::move(mesh));
-  scene.instances.push_back(instance);
   return scene;
+}
+
+void put_on_stage(Scene& stage, Mesh mesh) {
+  Instance instance;
+  instance.mesh = static_cast<MeshId>(stage.meshes.size());
+  instance.world_from_object = on_the_floor(mesh);
+  stage.meshes.push_back(std::move(mesh));
+  stage.instances.push_back(instance);
 }
 
 }  // namespace pah

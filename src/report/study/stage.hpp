@@ -5,8 +5,10 @@
 
 namespace pah {
 
-// The mesh, two meters in its largest extent, on a floor under a bulb and a sun. It needs an
-// extent.
-[[nodiscard]] Scene staged(Mesh mesh);
+// A floor under a bulb and a sun, with a camera that looks at two meters above its middle.
+[[nodiscard]] Scene make_stage();
+
+// Adds the mesh, two meters in its largest extent, in the middle of the floor. It needs an extent.
+void put_on_stage(Scene& stage, Mesh mesh);
 
 }  // namespace pah
