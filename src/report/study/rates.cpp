@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
+#include <ctime>
 #include <pah/render/acceleration.hpp>
 
 #include "parallel/parallel_for.hpp"
@@ -12,8 +12,10 @@
 namespace pah {
 namespace {
 
-double seconds() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+double seconds_of(clockid_t clock) {
+  timespec now{};
+  ::clock_gettime(clock, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
 struct Kind {
@@ -29,7 +31,7 @@ constexpr std::array<Kind, 4> kinds{{
 }};
 
 // Seconds of asking all batches `passes` times. Batches are the tasks: a call takes one as it was
-// recorded.
+// recorded. One thread's are CPU time, so that other programs do not slow it down.
 double time_of(const Accelerator& accelerator, RayQuery query, const RayBatches& batches,
                std::size_t passes, unsigned threads) {
   const std::size_t count = batches.ends.size();
@@ -42,36 +44,40 @@ double time_of(const Accelerator& accelerator, RayQuery query, const RayBatches&
       ask(accelerator, query, batch, answers, 0);
     }
   };
-  const double start = seconds();
+  const clockid_t clock = threads == 1 ? CLOCK_THREAD_CPUTIME_ID : CLOCK_MONOTONIC;
+  const double start = seconds_of(clock);
   if (threads == 1) {
     part(0, count * passes);
   } else {
     parallel_ranges(count * passes, 1, part);
   }
-  return seconds() - start;
+  return seconds_of(clock) - start;
 }
 
 void measure_kind(const Kind& kind, const RayBatches& batches, unsigned threads, bool quick,
                   const std::vector<NamedAccelerator>& accelerators,
                   const std::vector<RateRow>& blank, std::vector<RateRow>& rows) {
-  const double least_seconds = quick ? 0.02 : 0.05;
+  // Many short turns, so that what slows the machine for a while slows all accelerators.
+  constexpr unsigned turns = 5;
+  const double turn_seconds = (quick ? 0.02 : 0.05) / turns;
   const unsigned repetitions = quick ? 3 : 5;
   std::vector<std::size_t> passes;
   for (const NamedAccelerator& on : accelerators) {
     const double warm_up = time_of(*on.accelerator, kind.query, batches, 1, threads);
     passes.push_back(static_cast<std::size_t>(
-        std::clamp(std::ceil(least_seconds / std::max(warm_up, 1e-9)), 1.0, 1e6)));
+        std::clamp(std::ceil(turn_seconds / std::max(warm_up, 1e-9)), 1.0, 1e6)));
   }
-  // By turns, so that what slows the machine for a while slows them all.
   for (unsigned repetition = 1; repetition <= repetitions; ++repetition) {
+    std::vector<double> took(accelerators.size());
+    for (unsigned turn = 0; turn < turns; ++turn)
+      for (std::size_t i = 0; i < accelerators.size(); ++i)
+        took[i] += time_of(*accelerators[i].accelerator, kind.query, batches, passes[i], threads);
     for (std::size_t i = 0; i < accelerators.size(); ++i) {
       RateRow row = blank[i];
       row.threads = threads;
       row.repetition = repetition;
-      const double took =
-          time_of(*accelerators[i].accelerator, kind.query, batches, passes[i], threads);
       row.rays_per_second =
-          static_cast<double>(batches.rays.size() * passes[i]) / std::max(took, 1e-9);
+          static_cast<double>(batches.rays.size() * passes[i] * turns) / std::max(took[i], 1e-9);
       rows.push_back(row);
     }
   }
@@ -110,9 +116,9 @@ std::vector<RateRow> blank_rows(const std::string& scene, std::uint64_t triangle
 template <typename Make>
 void add(std::vector<NamedAccelerator>& accelerators, const char* name, bool counts,
          const Make& make) {
-  const double start = seconds();
+  const double start = seconds_of(CLOCK_MONOTONIC);
   std::unique_ptr<Accelerator> made = make();
-  accelerators.push_back({name, std::move(made), seconds() - start, counts});
+  accelerators.push_back({name, std::move(made), seconds_of(CLOCK_MONOTONIC) - start, counts});
 }
 
 bool builds_areas(const World& world, const Scene& settings) {

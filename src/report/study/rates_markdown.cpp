@@ -136,7 +136,8 @@ std::string rates_markdown(const StudyResults& results, bool with_plots) {
     std::vector<RateCase> cases;
     std::ranges::copy_if(all, std::back_inserter(cases),
                          [&](const RateCase& of) { return of.threads == threads; });
-    text += fmt::format("On {} thread{}:\n\n", threads, threads == 1 ? "" : "s");
+    text += threads == 1 ? "On 1 thread, by its CPU time:\n\n"
+                         : fmt::format("On {} threads, by the clock:\n\n", threads);
     text += rates_table(rows, cases);
   }
   text += fmt::format(
