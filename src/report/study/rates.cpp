@@ -92,7 +92,7 @@ std::vector<RateRow> blank_rows(const std::string& scene, std::uint64_t triangle
   Answers expected;
   for (const NamedAccelerator& on : accelerators) {
     TraversalCounts counts;
-    Answers answers = ask_all(*on.accelerator, kind.query, batches, &counts);
+    const Answers answers = ask_all(*on.accelerator, kind.query, batches, &counts);
     if (rows.empty()) expected = answers;
     RateRow row;
     row.scene = scene;

@@ -11,7 +11,7 @@ namespace {
 
 // Whole tiles of a picture as large as the scene's send the batches of a real render, and rays that
 // lie as close together. So many pixels see enough of a scene.
-constexpr std::uint64_t recorded_pixels = 12 * 1024;
+constexpr std::uint64_t recorded_pixels = 12ULL * 1024;
 constexpr double most_pixels = 1 << 20;  // of the picture: its film takes memory
 
 // Stands between the renderer and an accelerator. For one thread.
