@@ -11,6 +11,8 @@
 #include <pah/scene/placement.hpp>
 #include <pah/scene/shapes.hpp>
 
+#include "report/study/stage.hpp"
+
 namespace pah::bench {
 namespace {
 
@@ -26,24 +28,6 @@ fs::path mesh_folder() {
 }
 
 fs::path file_of(const std::string& mesh) { return mesh_folder() / (mesh + ".obj"); }
-
-// Two meters in its largest extent, its lowest point on the floor.
-glm::dmat4x3 on_the_floor(const Mesh& mesh) {
-  Aabb box;
-  for (const Vec3& position : mesh.positions) box.extend(position);
-  const DVec3 size(box.extent());
-  const double scale = 2 / std::max({size.x, size.y, size.z});
-  const DVec3 foot{box.center().x, box.min.y, box.center().z};
-  return {{scale, 0, 0}, {0, scale, 0}, {0, 0, scale}, -scale * foot};
-}
-
-void add_file(Scene& scene, const fs::path& file) {
-  Instance instance;
-  instance.mesh = static_cast<MeshId>(scene.meshes.size());
-  scene.meshes.push_back(read_mesh(file));
-  instance.world_from_object = on_the_floor(scene.meshes.back());
-  scene.instances.push_back(instance);
-}
 
 // Spheres and tori in the air, 63,360 triangles.
 void add_shapes(Scene& scene) {
@@ -64,24 +48,16 @@ void add_shapes(Scene& scene) {
 }
 
 Scene scene_with(const std::string& mesh) {
-  Scene scene;
-  scene.camera = PerspectiveCamera{{1.7, 1.8, 3.6}, {0, 0.9, 0}, {0, 1, 0}, 28, 0, {}};
-  scene.film.width = scene.film.height = 128;
+  Scene scene = make_stage();
   scene.render.samples = 8;
-  scene.render.max_depth = 4;
-  scene.materials.emplace_back();
-  scene.lights = {{"bulb", PointLight{{-1.6, 3.2, 2.2}, Vec3{36}}},
-                  {"sun", DirectionalLight{{-1, -2, -1}, Vec3{3}, 0}}};
   scene.influence_areas.derive = false;
   scene.influence_areas.declared = {
       PointAreaDeclaration{"bulb", {1.6, -2.2, -2.2}, {60, 60}, 0, 10},
       PlaneAreaDeclaration{"sun", {1.6, 4.2, 1.6}, {-1, -2, -1}, {3.6, 3.6}, 8}};
-  scene.meshes.push_back(make_mesh(RectangleShape{{8, 8}}));
-  scene.instances.emplace_back();
   if (mesh == shapes) {
     add_shapes(scene);
   } else {
-    add_file(scene, file_of(mesh));
+    put_on_stage(scene, read_mesh(file_of(mesh)));
   }
   return scene;
 }

@@ -6,6 +6,8 @@
 #include <pah/accel/accelerator.hpp>
 #include <stdexcept>
 #include <string>
+
+#include "accel/embree_version.hpp"
 #if PAH_EMBREE >= 4
 #include <embree4/rtcore.h>
 #elif PAH_EMBREE
@@ -124,12 +126,14 @@ std::unique_ptr<Accelerator> make_embree(Triangles triangles) {
 }
 
 bool has_embree() { return true; }
+const char* embree_version() { return RTC_VERSION_STRING; }
 
 #else
 
 std::unique_ptr<Accelerator> make_embree(Triangles /*triangles*/) { return nullptr; }
 
 bool has_embree() { return false; }
+const char* embree_version() { return ""; }
 
 #endif
 

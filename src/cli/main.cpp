@@ -190,7 +190,9 @@ CLI::App* add_inspect(CLI::App& app, InspectArguments& arguments) {
 
 CLI::App* add_study(CLI::App& app, StudyArguments& arguments) {
   CLI::App* study = app.add_subcommand(
-      "study", "Measure how well heuristics predict and build local BVHs, over meshes and scenes");
+      "study",
+      "Measure how well heuristics predict and build local BVHs, and how fast accelerators are,\n"
+      "over meshes and scenes");
   study->get_formatter()->column_width(25);
   study->add_option("FILE", arguments.files, "Mesh files and scenes")->required()->type_name("");
   study->add_option("-o,--output", arguments.output, "The folder to write report.md and tables to")

@@ -12,6 +12,8 @@
 #include "cli/console.hpp"
 #include "io/extension.hpp"
 #include "io/output_file.hpp"
+#include "report/study/rates.hpp"
+#include "report/study/stage.hpp"
 #include "report/study/study.hpp"
 
 namespace pah::cli {
@@ -34,57 +36,84 @@ bool is_mesh(const fs::path& file) {
   throw SceneError(std::move(errors));
 }
 
-StudyMesh load(const fs::path& file) {
-  StudyMesh study;
-  study.name = file.stem().string();
-  if (is_scene(file)) {
-    World world = make_world(load_scene(file).scene);
-    study.positions = std::move(world.positions);
-    study.indices = std::move(world.indices);
-    return study;
-  }
-  // Else the file is taken to be faulty, not missing.
-  if (!std::ifstream(file)) throw FileError("cannot read " + file.string());
-  try {
-    Mesh mesh = read_mesh(file);
-    study.positions = std::move(mesh.positions);
-    study.indices = std::move(mesh.triangles);
-  } catch (const MeshFileError& error) {
-    fail({file.string(), error.line(), error.column()}, error.what(), error.excerpt());
-  }
-  return study;
+// What both parts of the study take of a file.
+struct Subject {
+  StudyMesh mesh;
+  StudyScene scene;
+};
+
+void take(const Scene& scene, Subject& subject) {
+  subject.scene.world = make_world(scene);
+  Scene& settings = subject.scene.settings;
+  settings.film = scene.film;
+  settings.render = scene.render;
+  settings.influence_areas = scene.influence_areas;
+  settings.acceleration = scene.acceleration;
 }
 
-StudyMesh load_checked(const fs::path& file) {
-  StudyMesh mesh = load(file);
+void check(const StudyMesh& mesh, const fs::path& file) {
   const Aabb bounds = bounds_of(mesh.triangles());
   const char* fault = mesh.indices.empty()                 ? "there are no triangles to study"
                       : bounds.min == bounds.max           ? "all triangles are one point"
                       : mesh.indices.size() >= 1ULL << 31U ? "there are too many triangles"
                                                            : nullptr;
   if (fault != nullptr) fail({file.string(), 0, 0}, fault);
-  return mesh;
 }
 
-// Errors of all files at once.
-std::vector<StudyMesh> load_all(const std::vector<fs::path>& files) {
+Subject load_study_scene(const fs::path& file) {
+  Subject subject;
+  take(load_scene(file).scene, subject);
+  subject.mesh.positions = subject.scene.world.positions;
+  subject.mesh.indices = subject.scene.world.indices;
+  check(subject.mesh, file);
+  return subject;
+}
+
+Subject load_study_mesh(const fs::path& file) {
+  // Else the file is taken to be faulty, not missing.
+  if (!std::ifstream(file)) throw FileError("cannot read " + file.string());
+  Subject subject;
+  try {
+    Mesh mesh = read_mesh(file);
+    subject.mesh.positions = mesh.positions;
+    subject.mesh.indices = mesh.triangles;
+    check(subject.mesh, file);
+    Scene stage = make_stage();
+    put_on_stage(stage, std::move(mesh));
+    take(stage, subject);
+  } catch (const MeshFileError& error) {
+    fail({file.string(), error.line(), error.column()}, error.what(), error.excerpt());
+  }
+  return subject;
+}
+
+struct Subjects {
   std::vector<StudyMesh> meshes;
+  std::vector<StudyScene> scenes;
+};
+
+// Errors of all files at once.
+Subjects load_all(const std::vector<fs::path>& files) {
+  Subjects all;
   std::vector<LocatedError> errors;
   for (const fs::path& file : files) {
+    Subject subject;
     try {
-      meshes.push_back(load_checked(file));
+      subject = is_scene(file) ? load_study_scene(file) : load_study_mesh(file);
     } catch (const SceneError& error) {
       errors.insert(errors.end(), error.errors().begin(), error.errors().end());
       continue;
     }
     // Rows are told apart by their names.
-    const auto same =
-        std::ranges::find(meshes.begin(), meshes.end() - 1, meshes.back().name, &StudyMesh::name);
-    if (same != meshes.end() - 1)
-      meshes.back().name = fmt::format("{} ({})", meshes.back().name, meshes.size());
+    std::string name = file.stem().string();
+    if (std::ranges::find(all.meshes, name, &StudyMesh::name) != all.meshes.end())
+      name = fmt::format("{} ({})", name, all.meshes.size() + 1);
+    subject.mesh.name = subject.scene.name = name;
+    all.meshes.push_back(std::move(subject.mesh));
+    all.scenes.push_back(std::move(subject.scene));
   }
   if (!errors.empty()) throw SceneError(std::move(errors));
-  return meshes;
+  return all;
 }
 
 void show_progress(double done, const std::string& what) {
@@ -110,15 +139,18 @@ ExitCode run_study(const StudyArguments& arguments) {
   if (config.quick) config.rays = 5'000;
   if (arguments.rays > 0) config.rays = arguments.rays;
   const bool terminal = can_redraw();
-  const StudyResults results =
-      pah::run_study(load_all(arguments.files), config,
-                     terminal ? show_progress : std::function<void(double, const std::string&)>{});
+  const auto progress =
+      terminal ? show_progress : std::function<void(double, const std::string&)>{};
+  const Subjects subjects = load_all(arguments.files);
+  StudyResults results = pah::run_study(subjects.meshes, config, progress);
+  results.rates = measure_rates(subjects.scenes, config, progress);
   if (terminal) say("\r\x1b[K");
 
   write_text_file(folder / "prediction.csv", prediction_csv(results));
   write_text_file(folder / "cost.csv", cost_csv(results));
   write_text_file(folder / "build.csv", build_csv(results));
   write_text_file(folder / "sweep.csv", sweep_csv(results));
+  write_text_file(folder / "rays.csv", rays_csv(results));
   const bool plotted = write_study_plots(results, folder);
   write_text_file(folder / "report.md", study_markdown(results, plotted));
   say(fmt::format("wrote {}{}\n", (folder / "report.md").string(),

@@ -8,6 +8,9 @@
 
 namespace pah {
 
+// Threads of the current arena.
+[[nodiscard]] unsigned parallel_threads();
+
 // Calls body(first, last) for ranges of at most `grain` that together make [0, count). Returns when
 // all are done; rethrows what one of them throws.
 void parallel_ranges(std::size_t count, std::size_t grain,

@@ -22,12 +22,14 @@ TEST_CASE("study writes its tables and its report") {
       run({"study", knot, "small.yaml", "-o", "made/here", "--quick", "--rays", "500"});
   CHECK(outcome.exit_code == 0);
   CHECK(outcome.out.empty());
-  for (const char* name : {"prediction.csv", "cost.csv", "build.csv", "sweep.csv", "report.md",
-                           "prediction.gp", "cost.gp", "sweep.gp"})
+  for (const char* name : {"prediction.csv", "cost.csv", "build.csv", "sweep.csv", "rays.csv",
+                           "report.md", "prediction.gp", "cost.gp", "sweep.gp", "rays.gp"})
     CHECK(!read_file(std::string("made/here/") + name).empty());
   const std::string report = read_file("made/here/report.md");
   CHECK(report.find("| knot |") != std::string::npos);
   CHECK(report.find("| small |") != std::string::npos);
+  CHECK(report.find("| knot | camera nearest |") != std::string::npos);
+  CHECK(report.find("| small | shadow any |") != std::string::npos);
   // Plots are there, or the report and the program say why not.
   const bool plotted = std::filesystem::exists("made/here/cost.svg");
   CHECK((report.find("No plots") == std::string::npos) == plotted);

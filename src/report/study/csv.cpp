@@ -62,4 +62,20 @@ std::string sweep_csv(const StudyResults& results) {
   return csv;
 }
 
+std::string rays_csv(const StudyResults& results) {
+  std::string csv =
+      "scene,triangles,ray_kind,accelerator,batch,threads,repetition,rays_per_second,"
+      "nodes_per_ray,triangles_per_ray,build_seconds,bytes,mismatches\n";
+  const auto counted = [](const std::optional<double>& count) {
+    return count ? fmt::format("{:.5g}", *count) : std::string();
+  };
+  for (const RateRow& row : results.rates)
+    csv +=
+        fmt::format("{},{},{},{},{:.6g},{},{},{:.6g},{},{},{:.6f},{},{}\n", quoted(row.scene),
+                    row.triangles, row.ray_kind, row.accelerator, row.batch, row.threads,
+                    row.repetition, row.rays_per_second, counted(row.nodes_per_ray),
+                    counted(row.triangles_per_ray), row.build_seconds, row.bytes, row.mismatches);
+  return csv;
+}
+
 }  // namespace pah

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "report/study/markdown_table.hpp"
 #include "report/study/means.hpp"
 
 namespace pah {
@@ -10,26 +11,6 @@ namespace {
 
 std::string percent(double x) { return std::isnan(x) ? "-" : fmt::format("{:.1f} %", 100 * x); }
 std::string number(double x) { return std::isnan(x) ? "-" : fmt::format("{:.3f}", x); }
-
-// Pipes would end a cell.
-std::string cell(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    if (c == '|') out += '\\';
-    out += c == '\n' ? ' ' : c;
-  }
-  return out;
-}
-
-std::string row_of(const std::vector<std::string>& cells) {
-  return fmt::format("| {} |\n", fmt::join(cells, " | "));
-}
-
-std::string header(const std::vector<std::string>& cells) {
-  std::vector<std::string> rule(cells.size(), "---:");
-  rule.front() = "---";
-  return row_of(cells) + row_of(rule);
-}
 
 constexpr auto anything = [](const auto&) { return true; };
 
@@ -51,9 +32,10 @@ std::string prediction_row(const std::string& name, const StudyResults& results,
     return percent(mean_of(results.predictions, take,
                            [part](const PredictionRow& row) { return row.*part / row.measured; }));
   };
-  return row_of({cell(name), error(&PredictionRow::pah), error(&PredictionRow::pah_plane),
-                 error(&PredictionRow::pah_unclipped), error(&PredictionRow::sah),
-                 share(&PredictionRow::standard_error), share(&PredictionRow::closest)});
+  return markdown_row({markdown_cell(name), error(&PredictionRow::pah),
+                       error(&PredictionRow::pah_plane), error(&PredictionRow::pah_unclipped),
+                       error(&PredictionRow::sah), share(&PredictionRow::standard_error),
+                       share(&PredictionRow::closest)});
 }
 
 std::string predictions(const StudyResults& results) {
@@ -68,7 +50,7 @@ std::string predictions(const StudyResults& results) {
       "borders. `noise` is the standard error of the measured mean. `nearest hit` is what a "
       "search\n"
       "that stops at the nearest hit visits of it: no heuristic here knows about that.\n\n";
-  text += header({"", "PAH", "plane measure", "unclipped", "SAH", "noise", "nearest hit"});
+  text += markdown_header({"", "PAH", "plane measure", "unclipped", "SAH", "noise", "nearest hit"});
   text += prediction_row("all plane areas", results,
                          [](const PredictionRow& row) { return !is_point(row.tree.group); });
   text += prediction_row("all point areas", results,
@@ -84,19 +66,19 @@ std::string predictions(const StudyResults& results) {
 template <typename Take>
 std::string variants_row(const std::string& name, const std::vector<CostRow>& rows,
                          const Take& take, double CostRow::*value) {
-  std::vector<std::string> cells{cell(name)};
+  std::vector<std::string> cells{markdown_cell(name)};
   for (const StudyVariant& variant : study_variants)
     cells.push_back(number(mean_of(
         rows, [&](const CostRow& row) { return variant.built(row) && take(row); },
         [value](const CostRow& row) { return row.*value; })));
-  return row_of(cells);
+  return markdown_row(cells);
 }
 
 std::string variants_table(const StudyResults& results, const std::vector<CostRow>& rows,
                            double CostRow::*value) {
   std::vector<std::string> names{""};
   for (const StudyVariant& variant : study_variants) names.push_back(variant.name());
-  std::string text = header(names);
+  std::string text = markdown_header(names);
   text += variants_row("**all**", rows, anything, value);
   for (std::size_t group = 0; group < study_groups; ++group)
     text += variants_row(name_of(static_cast<StudyGroup>(group)), rows, of_group(group), value);
@@ -137,10 +119,11 @@ std::string break_even(const StudyResults& results) {
       "(cost of the global BVH, SAH + best axis, for the same rays). That share:\n\n";
   text += variants_table(results, results.costs, &CostRow::break_even);
   text += "The share of the bundles' rays that do hit within the region:\n\n";
-  text += header({"", "hit"});
+  text += markdown_header({"", "hit"});
   const auto share = [&](const std::string& name, const auto& take) {
-    return row_of({cell(name), number(mean_of(results.costs, take,
-                                              [](const CostRow& row) { return row.hit_share; }))});
+    return markdown_row(
+        {markdown_cell(name),
+         number(mean_of(results.costs, take, [](const CostRow& row) { return row.hit_share; }))});
   };
   text += share("**all**", anything);
   for (std::size_t group = 0; group < study_groups; ++group)
@@ -172,7 +155,7 @@ std::string sweeps(const StudyResults& results) {
   for (const std::string& area : areas)
     for (const char* heuristic : {"SAH", "PAH"})
       names.push_back(fmt::format("{}, {}", heuristic, area));
-  text += header(names);
+  text += markdown_header(names);
   for (const auto& [parameter, value] : settings) {
     std::vector<std::string> cells{fmt::format("{} {:g}", parameter, value)};
     for (const std::string& area : areas)
@@ -184,7 +167,7 @@ std::string sweeps(const StudyResults& results) {
                      row.parameter == name && row.value == setting;
             },
             [](const SweepRow& row) { return row.over_default; })));
-    text += row_of(cells);
+    text += markdown_row(cells);
   }
   return text + "\n";
 }
@@ -196,7 +179,8 @@ std::string study_markdown(const StudyResults& results, bool with_plots) {
       "# Study of local BVHs\n\n"
       "{} rays an area, seed {}{}. Costs are counted: {:g} a box test, {:g} for up to {} "
       "triangles\n"
-      "tested side by side. They depend on the seed alone. Areas are placed by the bounding "
+      "tested side by side. They depend on the seed alone, but for rays a second. Areas are placed "
+      "by the bounding "
       "sphere\n"
       "of a mesh and half as wide, so that they cut through it; rays start at the area's near "
       "face\n"
@@ -206,7 +190,7 @@ std::string study_markdown(const StudyResults& results, bool with_plots) {
   if (results.skipped_areas > 0)
     text +=
         fmt::format("Left out: {} areas in which no ray meets a box.\n\n", results.skipped_areas);
-  if (results.costs.empty()) return text;
+  if (results.costs.empty()) return text + rates_markdown(results, with_plots);
   text += study_findings(results);
   if (with_plots)
     text +=
@@ -216,7 +200,7 @@ std::string study_markdown(const StudyResults& results, bool with_plots) {
     text +=
         "No plots: gnuplot was not found or failed. Its scripts are here: run gnuplot *.gp.\n\n";
   return text + predictions(results) + costs(results) + break_even(results) + builds(results) +
-         sweeps(results);
+         sweeps(results) + rates_markdown(results, with_plots);
 }
 
 }  // namespace pah

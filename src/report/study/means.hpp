@@ -52,6 +52,9 @@ inline constexpr StudyVariant study_variants[] = {sah_longest, sah_best, sah_fac
 // The thesis's claims and what becomes of them, as a section of the report.
 [[nodiscard]] std::string study_findings(const StudyResults& results);
 
+// Rays a second, as a section of the report; empty if none were measured.
+[[nodiscard]] std::string rates_markdown(const StudyResults& results, bool with_plots);
+
 // The rows with `value` divided by that of `base` in the same area.
 [[nodiscard]] std::vector<CostRow> relative_costs(const std::vector<CostRow>& rows,
                                                   const StudyVariant& base, double CostRow::*value);

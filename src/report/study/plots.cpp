@@ -10,6 +10,7 @@
 
 #include "io/output_file.hpp"
 #include "report/study/means.hpp"
+#include "report/study/rate_summary.hpp"
 
 namespace pah {
 namespace {
@@ -103,6 +104,27 @@ std::string sweep_plot(const StudyResults& results) {
   return text + "EOD\nplot for [i=2:3] $costs using i:xtic(1) title columnheader(i)\n";
 }
 
+// Medians on one thread, with bars from the least to the most.
+std::string rays_plot(const StudyResults& results) {
+  std::string text = preamble("rays", "Rays on one thread", "millions a second");
+  text += "set xtics rotate by -35\nset style histogram errorbars gap 2 lw 1\n$rates << EOD\n";
+  for (const RateCase& of : cases_of(results.rates)) {
+    if (of.threads != 1) continue;
+    text += quoted(of.scene + ", " + of.ray_kind);
+    for (const char* accelerator : {"bvh", "local", "embree"}) {
+      const RateSpread spread = spread_of(results.rates, of, accelerator);
+      text += std::isnan(spread.median) ? " ? ? ?"
+                                        : fmt::format(" {:.4g} {:.4g} {:.4g}", 1e-6 * spread.median,
+                                                      1e-6 * spread.least, 1e-6 * spread.most);
+    }
+    text += "\n";
+  }
+  return text +
+         "EOD\nset datafile missing '?'\n"
+         "plot $rates using 2:3:4:xtic(1) title 'bvh', $rates using 5:6:7 title 'local', "
+         "$rates using 8:9:10 title 'embree'\n";
+}
+
 // Runs `gnuplot script` in the folder, silently.
 bool run_gnuplot(const std::filesystem::path& folder, std::string script) {
   posix_spawn_file_actions_t actions;
@@ -126,12 +148,14 @@ bool run_gnuplot(const std::filesystem::path& folder, std::string script) {
 
 bool write_study_plots(const StudyResults& results, const std::filesystem::path& folder) {
   if (results.costs.empty()) return false;
-  write_text_file(folder / "prediction.gp", prediction_plot(results));
-  write_text_file(folder / "cost.gp", cost_plot(results));
-  write_text_file(folder / "sweep.gp", sweep_plot(results));
+  std::vector<std::pair<const char*, std::string>> scripts{
+      {"prediction.gp", prediction_plot(results)},
+      {"cost.gp", cost_plot(results)},
+      {"sweep.gp", sweep_plot(results)}};
+  if (!results.rates.empty()) scripts.emplace_back("rays.gp", rays_plot(results));
+  for (const auto& [name, text] : scripts) write_text_file(folder / name, text);
   bool all = true;
-  for (const char* script : {"prediction.gp", "cost.gp", "sweep.gp"})
-    all = run_gnuplot(folder, script) && all;
+  for (const auto& [name, text] : scripts) all = run_gnuplot(folder, name) && all;
   return all;
 }
 

@@ -1,11 +1,12 @@
 // The thesis's experiments, repeated over any meshes: how well the heuristics predict what rays
 // cost, and what the trees that they build cost. Costs are counted, in units of a box test
 // (build_config.hpp), so that they depend on the seed alone and never on the machine. Only build
-// times are measured.
+// times are measured, and the rates of accelerators.
 #pragma once
 
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <pah/accel/local_bvhs.hpp>
 #include <string>
 #include <vector>
@@ -85,11 +86,27 @@ struct SweepRow {
   double over_default = 0;
 };
 
+// One measurement of one accelerator on the rays that a render of a scene asked.
+struct RateRow {
+  std::string scene;
+  std::uint64_t triangles = 0;
+  std::string ray_kind, accelerator;
+  double batch = 0;  // rays a call, the mean
+  unsigned threads = 1;
+  unsigned repetition = 1;
+  double rays_per_second = 0;
+  std::optional<double> nodes_per_ray, triangles_per_ray;  // of those that count
+  double build_seconds = 0;                                // by all threads
+  std::uint64_t bytes = 0;
+  std::uint64_t mismatches = 0;  // rays that are answered otherwise than by bvh
+};
+
 struct StudyResults {
   StudyConfig config;
   std::vector<PredictionRow> predictions;
   std::vector<CostRow> costs;
   std::vector<SweepRow> sweeps;
+  std::vector<RateRow> rates;       // of measure_rates (rates.hpp)
   std::uint64_t skipped_areas = 0;  // that no ray finds a triangle's box in
 };
 
@@ -103,6 +120,7 @@ struct StudyResults {
 [[nodiscard]] std::string cost_csv(const StudyResults& results);
 [[nodiscard]] std::string build_csv(const StudyResults& results);
 [[nodiscard]] std::string sweep_csv(const StudyResults& results);
+[[nodiscard]] std::string rays_csv(const StudyResults& results);
 [[nodiscard]] std::string study_markdown(const StudyResults& results, bool with_plots);
 
 // Writes gnuplot's scripts into `folder` and runs them; false if there is no gnuplot that could.

@@ -1,0 +1,13 @@
+#include "bvh/instruction_set.hpp"
+
+#include <hwy/targets.h>
+
+namespace pah {
+
+const char* instruction_set() {
+  // The lowest bit is the best.
+  const auto targets = static_cast<std::int64_t>(hwy::SupportedTargets() & HWY_TARGETS);
+  return hwy::TargetName(targets & -targets);
+}
+
+}  // namespace pah
