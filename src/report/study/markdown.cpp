@@ -179,12 +179,11 @@ std::string study_markdown(const StudyResults& results, bool with_plots) {
       "# Study of local BVHs\n\n"
       "{} rays an area, seed {}{}. Costs are counted: {:g} a box test, {:g} for up to {} "
       "triangles\n"
-      "tested side by side. They depend on the seed alone, but for rays a second. Areas are placed "
-      "by the bounding "
-      "sphere\n"
-      "of a mesh and half as wide, so that they cut through it; rays start at the area's near "
-      "face\n"
-      "or eye. Rows: prediction.csv, cost.csv, build.csv, sweep.csv.\n\n",
+      "tested side by side. They depend on the seed alone; rays a second, at the end, do not. "
+      "Areas\n"
+      "are placed by the bounding sphere of a mesh and half as wide, so that they cut through it;\n"
+      "rays start at the area's near face or eye. Rows: prediction.csv, cost.csv, build.csv,\n"
+      "sweep.csv.\n\n",
       results.config.rays, results.config.seed, results.config.quick ? ", quick" : "", box_cost,
       triangle_cost, BuildConfig{}.side_by_side);
   if (results.skipped_areas > 0)

@@ -122,8 +122,8 @@ std::string rates_markdown(const StudyResults& results, bool with_plots) {
       "Of the rays that a render of each scene asks in some tiles of its picture, in its batches:\n"
       "about {} thousand of a kind or less. A mesh stands on a floor, under a bulb and a sun.\n"
       "Millions a second: the median of {} repetitions, in which accelerators take turns\n"
-      "(least-most); ratios are medians of the repetitions' own. Measured with {}{}{}. Rows: "
-      "rays.csv.\n\n",
+      "(least-most); ratios are medians of the repetitions' own. Rows: rays.csv. Measured\n"
+      "with {}{}{}.\n\n",
       results.config.quick ? 10 : 100, repetitions, instruction_set(),
       has_embree() ? " and Embree " : "; there is no Embree", embree_version());
   if (with_plots) text += "![Rays a second](rays.svg)\n\n";
