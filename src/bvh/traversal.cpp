@@ -3,7 +3,6 @@
 #define HWY_TARGET_INCLUDE "bvh/traversal.cpp"
 #include <hwy/foreach_target.h>
 // foreach_target.h comes first.
-#include <hwy/cache_control.h>
 #include <hwy/highway.h>
 #include <algorithm>
 #include <bit>
@@ -230,19 +229,6 @@ HWY_INLINE std::uint32_t lowest_bit(std::uint32_t mask) {
   return static_cast<std::uint32_t>(hwy::Num0BitsBelowLS1Bit_Nonzero32(mask));
 }
 
-HWY_INLINE void prefetch(const Bvh& bvh, ChildRef child) {
-  if (child.is_leaf()) {
-    const TriangleBlock* block = bvh.blocks.data() + child.first_block();
-    hwy::Prefetch(block->vertices[0]);
-    hwy::Prefetch(block->vertices[1] + 1);
-    hwy::Prefetch(block->indices);
-  } else {
-    const BvhNode* node = bvh.nodes.data() + child.node();
-    for (const auto& planes : node->planes) hwy::Prefetch(planes);
-    hwy::Prefetch(node->children);
-  }
-}
-
 template <bool counting>
 HWY_INLINE void closest(const Bvh& bvh, const PreparedRay& ray, Hit& best,
                         TraversalCounts& counts) {
@@ -261,26 +247,28 @@ HWY_INLINE void closest(const Bvh& bvh, const PreparedRay& ray, Hit& best,
       std::uint32_t hits = nodes.meet_children(node, best.t, near);
       if (hits != 0) {
         // Goes on with the nearest; the others wait, the nearest of them on top.
-        const auto next = [&] {
-          const std::uint32_t k = lowest_bit(hits);
-          hits &= hits - 1;
+        const auto first_of = [&](std::uint32_t children) {
+          const std::uint32_t k = lowest_bit(children);
           return Entry(near[k], node.children[k]);
         };
-        Entry nearest = next();
+        Entry nearest = first_of(hits);
+        hits &= hits - 1;
         if (hits != 0) {
-          Entry second = next();
+          Entry second = first_of(hits);
+          hits &= hits - 1;
           order(nearest, second);
           if (hits == 0) {
             *top++ = second;
           } else {
-            Entry third = next();
+            Entry third = first_of(hits);
+            hits &= hits - 1;
             order(second, third);
             order(nearest, second);
             Entry* const bottom = top;
             *top++ = third;
             *top++ = second;
-            while (hits != 0) {
-              Entry entry = next();
+            for (; hits != 0; hits &= hits - 1) {
+              Entry entry = first_of(hits);
               order(nearest, entry);
               Entry* place = top++;
               for (; place > bottom && place[-1] < entry; --place) *place = place[-1];

@@ -111,7 +111,7 @@ inline constexpr float max_origin = 0x1p99F;
   const float largest = largest_of(size);
   const float far_away = largest_of(abs(origin));
   // Zero, or NaN where anything is not finite.
-  const Float4 nothing = (origin - origin) + (direction - direction);
+  const Float4 nothing = 0 * origin + 0 * direction;
   const bool usable = largest >= min_direction && largest <= max_direction &&
                       far_away <= max_origin * largest && ray.t_max > 0 &&
                       nothing[0] + nothing[1] + nothing[2] == 0;
