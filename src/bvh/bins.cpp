@@ -51,26 +51,38 @@ void Bins::clear(std::uint32_t bins) {
   used_ = bins;
   for (std::uint32_t i = 0; i < bins; ++i) {
     boxes_[i] = empty_boxes();
-    counts_[i] = Int4{};
+    counts_[i] = {};
+  }
+}
+
+[[gnu::always_inline]] inline void Bins::add(const Item& item, const Binning& binning) {
+  const Int4 bins = binning.bins_of(item);
+  for (std::size_t axis = 0; axis < axes; ++axis) {
+    const auto bin = static_cast<std::size_t>(bins[static_cast<int>(axis)]);
+    boxes_[bin][axis].extend(item.box);
+    ++counts_[bin][axis];
   }
 }
 
 void Bins::add(std::span<const Item> items, const Binning& binning) {
-  auto* counts = reinterpret_cast<std::int32_t*>(counts_.data());
-  for (const Item& item : items) {
-    const Int4 bins = binning.bins_of(item);
-    for (std::size_t axis = 0; axis < axes; ++axis) {
-      const auto bin = static_cast<std::size_t>(bins[axis]);
-      boxes_[bin][axis].extend(item.box);
-      ++counts[4 * bin + axis];
+  // Neighbors fall into the same bins, and would wait for each other.
+  constexpr std::size_t worth_two = 96;
+  std::size_t i = 0;
+  if (items.size() >= worth_two) {
+    Bins other(used_);
+    for (; i + 1 < items.size(); i += 2) {
+      add(items[i], binning);
+      other.add(items[i + 1], binning);
     }
+    add(other);
   }
+  for (; i < items.size(); ++i) add(items[i], binning);
 }
 
 void Bins::add(const Bins& other) {
   for (std::uint32_t i = 0; i < used_; ++i) {
     extend(boxes_[i], other.boxes_[i]);
-    counts_[i] += other.counts_[i];
+    for (std::size_t axis = 0; axis < axes; ++axis) counts_[i][axis] += other.counts_[i][axis];
   }
 }
 
@@ -92,7 +104,7 @@ Split Bins::cheapest_by_area(const Binning& binning, std::uint32_t side_by_side)
   Int4 counts{};
   for (std::uint32_t i = used_ - 1; i > 0; --i) {
     extend(boxes, boxes_[i]);
-    counts += counts_[i];
+    counts += counts_of(i);
     right_costs[i] = areas(boxes) * leaf_costs(counts, rounds_of);
   }
   boxes = empty_boxes();
@@ -101,7 +113,7 @@ Split Bins::cheapest_by_area(const Binning& binning, std::uint32_t side_by_side)
   Int4 bins{};
   for (std::uint32_t i = 1; i < used_; ++i) {
     extend(boxes, boxes_[i - 1]);
-    counts += counts_[i - 1];
+    counts += counts_of(i - 1);
     const Float4 cost = areas(boxes) * leaf_costs(counts, rounds_of) + right_costs[i];
     const Int4 cheaper = cost < costs;
     costs = min(cost, costs);
@@ -127,7 +139,7 @@ void Bins::sweep(int axis, const BoxMeasure& measure, std::uint32_t side_by_side
   const std::uint32_t splits = used_ - 1;
   const auto note = [&](std::uint32_t at, std::uint32_t bin, Box4& box, std::uint32_t& count) {
     box.extend(boxes_[bin][static_cast<std::size_t>(axis)]);
-    count += static_cast<std::uint32_t>(counts_[bin][axis]);
+    count += counts_[bin][static_cast<std::size_t>(axis)];
     boxes[at] = box.aabb();
     counts[at] = count;
   };
@@ -150,7 +162,7 @@ SplitBoxes Bins::at(const Split& split) const {
   SplitBoxes sides{0, Box4::empty(), Box4::empty()};
   for (std::uint32_t i = 0; i < split.bin; ++i) {
     sides.left.extend(boxes_[i][axis]);
-    sides.left_count += static_cast<std::uint32_t>(counts_[i][split.axis]);
+    sides.left_count += counts_[i][axis];
   }
   for (std::uint32_t i = split.bin; i < used_; ++i) sides.right.extend(boxes_[i][axis]);
   return sides;

@@ -54,13 +54,17 @@ class Bins {
   [[nodiscard]] SplitBoxes at(const Split& split) const;
 
  private:
+  void add(const Item& item, const Binning& binning);
+  [[nodiscard]] Int4 counts_of(std::uint32_t bin) const {
+    return std::bit_cast<Int4>(counts_[bin]);
+  }
   void clear(std::uint32_t bins);
   void sweep(int axis, const BoxMeasure& measure, std::uint32_t side_by_side, Split& best) const;
 
   static constexpr std::size_t axes = 3;
   std::uint32_t used_;
   std::array<std::array<Box4, axes>, BuildConfig::max_bins> boxes_;
-  std::array<Int4, BuildConfig::max_bins> counts_;  // a lane an axis
+  std::array<std::array<std::uint32_t, 4>, BuildConfig::max_bins> counts_;  // by axis
 };
 
 }  // namespace pah

@@ -283,6 +283,17 @@ template <typename BoxAt>
   return Builder(config, heuristic).build({&items[0], count}, {&items[count], count});
 }
 
+[[nodiscard]] std::vector<float> measures_of(const BinaryTree& tree, const BoxMeasure& measure) {
+  constexpr std::size_t at_once = 512;
+  std::vector<float> measures(tree.nodes.size());
+  parallel_ranges(measures.size(), at_once, [&](std::size_t first, std::size_t last) {
+    std::array<Aabb, at_once> boxes;
+    for (std::size_t i = first; i < last; ++i) boxes[i - first] = tree.nodes[i].box;
+    measure(std::span(boxes).first(last - first), std::span(measures).subspan(first, last - first));
+  });
+  return measures;
+}
+
 }  // namespace
 
 AxisMask longest_axis(const Aabb& box) {
@@ -302,11 +313,7 @@ BuiltBvh build_bvh(const Triangles& triangles, std::span<const std::uint32_t> su
   BinaryTree tree = build_from(
       subset.size(), [&](std::size_t i) { return padded(triangles[subset[i]].bounds()); }, config,
       heuristic);
-  std::vector<Aabb> boxes(tree.nodes.size());
-  std::ranges::transform(tree.nodes, boxes.begin(), &BinaryTree::Node::box);
-  std::vector<float> measures(boxes.size());
-  heuristic.measure(boxes, measures);
-  Bvh bvh = collapse(tree, measures, triangles, subset);
+  Bvh bvh = collapse(tree, measures_of(tree, heuristic.measure), triangles, subset);
   return {std::move(bvh), std::move(tree)};
 }
 
