@@ -9,6 +9,24 @@
 
 namespace pah {
 
+struct Split {
+  float cost = std::numeric_limits<float>::infinity();
+  int axis = 0;
+  std::uint32_t bin = 0;  // the first of the right side; 0 if there is none
+};
+
+// On which side of a split items are.
+struct Side {
+  int axis;
+  float origin, scale, border;
+
+  // As Binning has it: not a number is in the last bin.
+  [[nodiscard, gnu::always_inline]] bool is_right(const Item& item) const {
+    const float centroid = 0.5F * item.box.min[axis] + 0.5F * item.box.max[axis];
+    return !((centroid - origin) * scale < border);
+  }
+};
+
 // Maps centroids to bins, on all axes at once. An axis of no extent cannot be split: its scale is
 // 0.
 class Binning {
@@ -22,16 +40,13 @@ class Binning {
     const Float4 position = (item.centroid() - origin_) * scale_;
     return __builtin_convertvector(min(position, last_), Int4);
   }
+  [[nodiscard]] Side side_of(const Split& split) const {
+    return {split.axis, origin_[split.axis], scale_[split.axis], static_cast<float>(split.bin)};
+  }
 
  private:
   Float4 origin_, scale_, last_;
   std::uint32_t bins_;
-};
-
-struct Split {
-  float cost = std::numeric_limits<float>::infinity();
-  int axis = 0;
-  std::uint32_t bin = 0;  // the first of the right side; 0 if there is none
 };
 
 struct SplitBoxes {

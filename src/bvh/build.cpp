@@ -96,10 +96,8 @@ class Splitter {
     // Few items need few bins.
     const std::uint32_t bins_used = std::min(bins_, std::max(4U, 2 * range.count));
     const Binning binning(centroids, bins_used, heuristic_.axes(box.aabb()));
-    const Bins bins = fold(
-        range.span(), Bins(bins_used),
-        [&](Bins& b, std::span<const Item> some) { b.add(some, binning); },
-        [](Bins& a, const Bins& b) { a.add(b); });
+    Bins bins(bins_used);
+    fill(bins, range.span(), binning);
     const Split best = by_area_ ? bins.cheapest_by_area(binning, side_by_side_)
                                 : bins.cheapest(binning, heuristic_.measure, side_by_side_);
     if (leaf_allowed) {
@@ -114,6 +112,19 @@ class Splitter {
   }
 
  private:
+  // Bins are large: those of small nodes are not to be copied.
+  static void fill(Bins& bins, std::span<const Item> items, const Binning& binning) {
+    if (items.size() < 2 * pass_grain) return bins.add(items, binning);
+    bins.add(parallel_fold(
+        items.size(), pass_grain, bins,
+        [&](std::size_t first, std::size_t last) {
+          Bins some(binning.bins());
+          some.add(items.subspan(first, last - first), binning);
+          return some;
+        },
+        [](Bins& a, const Bins& b) { a.add(b); }));
+  }
+
   [[nodiscard]] static Parts parts_of(const Range& range, const SplitBoxes& sides) {
     return {range.part(0, sides.left_count),
             range.part(sides.left_count, range.count - sides.left_count), sides.left, sides.right};
@@ -122,8 +133,8 @@ class Splitter {
   // Moves the items into the room, each side in its order.
   static void partition(const Range& range, const Binning& binning, const Split& split,
                         std::uint32_t left_count) {
-    const auto is_right = [&](const Item& item) {
-      return static_cast<std::uint32_t>(binning.bins_of(item)[split.axis]) >= split.bin;
+    const auto is_right = [side = binning.side_of(split)](const Item& item) {
+      return side.is_right(item);
     };
     const auto move = [&](std::size_t first, std::size_t last, std::size_t left,
                           std::size_t right) {
