@@ -97,7 +97,9 @@ class Splitter {
     const std::uint32_t bins_used = std::min(bins_, std::max(4U, 2 * range.count));
     const Binning binning(centroids, bins_used, heuristic_.axes(box.aabb()));
     Bins bins(bins_used);
-    fill(bins, range.span(), binning);
+    const std::vector<Bins> chunks = chunks_of(range, binning);
+    if (chunks.empty()) bins.add(range.span(), binning);
+    for (const Bins& chunk : chunks) bins.add(chunk);
     const Split best = by_area_ ? bins.cheapest_by_area(binning, side_by_side_)
                                 : bins.cheapest(binning, heuristic_.measure, side_by_side_);
     if (leaf_allowed) {
@@ -107,22 +109,21 @@ class Splitter {
     }
     if (best.bin == 0) return halve(range, centroids);
     const SplitBoxes sides = bins.at(best);
-    partition(range, binning, best, sides.left_count);
+    partition(range, binning.side_of(best), sides.left_count, best, chunks);
     return parts_of(range.moved(), sides);
   }
 
  private:
-  // Bins are large: those of small nodes are not to be copied.
-  static void fill(Bins& bins, std::span<const Item> items, const Binning& binning) {
-    if (items.size() < 2 * pass_grain) return bins.add(items, binning);
-    bins.add(parallel_fold(
-        items.size(), pass_grain, bins,
-        [&](std::size_t first, std::size_t last) {
-          Bins some(binning.bins());
-          some.add(items.subspan(first, last - first), binning);
-          return some;
-        },
-        [](Bins& a, const Bins& b) { a.add(b); }));
+  // Nothing for small ranges: what is one chunk need not be joined.
+  [[nodiscard]] static std::vector<Bins> chunks_of(const Range& range, const Binning& binning) {
+    if (range.count < 2 * pass_grain) return {};
+    std::vector<Bins> chunks((range.count + pass_grain - 1) / pass_grain, Bins(binning.bins()));
+    parallel_for(chunks.size(), 1, [&](std::size_t i) {
+      const std::size_t first = i * pass_grain;
+      const std::size_t size = std::min(pass_grain, range.count - first);
+      chunks[i].add(range.span().subspan(first, size), binning);
+    });
+    return chunks;
   }
 
   [[nodiscard]] static Parts parts_of(const Range& range, const SplitBoxes& sides) {
@@ -131,33 +132,26 @@ class Splitter {
   }
 
   // Moves the items into the room, each side in its order.
-  static void partition(const Range& range, const Binning& binning, const Split& split,
-                        std::uint32_t left_count) {
-    const auto is_right = [side = binning.side_of(split)](const Item& item) {
-      return side.is_right(item);
-    };
+  static void partition(const Range& range, const Side& side, std::uint32_t left_count,
+                        const Split& split, std::span<const Bins> chunks) {
     const auto move = [&](std::size_t first, std::size_t last, std::size_t left,
                           std::size_t right) {
       for (std::size_t i = first; i < last; ++i) {
-        const bool to_right = is_right(range.items[i]);
+        const bool to_right = side.is_right(range.items[i]);
         range.room[to_right ? right : left] = range.items[i];
         right += to_right ? 1 : 0;
         left += to_right ? 0 : 1;
       }
     };
-    if (range.count < 2 * pass_grain) return move(0, range.count, 0, left_count);
-    std::vector<std::size_t> lefts((range.count + pass_grain - 1) / pass_grain);
-    const auto end_of = [&](std::size_t chunk) {
-      return std::min<std::size_t>((chunk + 1) * pass_grain, range.count);
-    };
-    parallel_for(lefts.size(), 1, [&](std::size_t chunk) {
-      for (std::size_t i = chunk * pass_grain; i < end_of(chunk); ++i)
-        lefts[chunk] += is_right(range.items[i]) ? 0 : 1;
-    });
-    std::exclusive_scan(lefts.begin(), lefts.end(), lefts.begin(), std::size_t{0});
-    parallel_for(lefts.size(), 1, [&](std::size_t chunk) {
-      const std::size_t first = chunk * pass_grain;
-      move(first, end_of(chunk), lefts[chunk], left_count + first - lefts[chunk]);
+    if (chunks.empty()) return move(0, range.count, 0, left_count);
+    std::vector<std::size_t> lefts(chunks.size());
+    std::transform_exclusive_scan(
+        chunks.begin(), chunks.end(), lefts.begin(), std::size_t{0}, std::plus<>{},
+        [&](const Bins& chunk) -> std::size_t { return chunk.at(split).left_count; });
+    parallel_for(chunks.size(), 1, [&](std::size_t i) {
+      const std::size_t first = i * pass_grain;
+      const std::size_t last = std::min<std::size_t>(first + pass_grain, range.count);
+      move(first, last, lefts[i], left_count + first - lefts[i]);
     });
   }
 
