@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -47,6 +48,28 @@ void add_shapes(Scene& scene) {
   }
 }
 
+// Hills about a meter high, 708 x 708 quads.
+void add_terrain(Scene& scene) {
+  constexpr std::uint32_t quads = 708, row = quads + 1;
+  Mesh mesh;
+  for (std::uint32_t i = 0; i < row * row; ++i) {
+    const float x = 2 * static_cast<float>(i % row) / quads - 1;
+    const float z = 2 * static_cast<float>(i / row) / quads - 1;
+    float height = 0;
+    float scale = 0.25F;
+    for (float frequency = 2; frequency < 200; frequency *= 2.3F, scale *= 0.45F)
+      height += scale * std::sin(frequency * x + height) * std::cos(1.3F * frequency * z - height);
+    mesh.positions.emplace_back(x, 0.5F + height, z);
+  }
+  for (std::uint32_t i = 0; i < quads * quads; ++i) {
+    const std::uint32_t a = i / quads * row + i % quads;
+    mesh.triangles.emplace_back(a, a + row, a + 1);
+    mesh.triangles.emplace_back(a + 1, a + row, a + row + 1);
+  }
+  scene.instances.emplace_back().mesh = static_cast<MeshId>(scene.meshes.size());
+  scene.meshes.push_back(std::move(mesh));
+}
+
 Scene scene_with(const std::string& mesh) {
   Scene scene = make_stage();
   scene.render.samples = 8;
@@ -56,6 +79,8 @@ Scene scene_with(const std::string& mesh) {
       PlaneAreaDeclaration{"sun", {1.6, 4.2, 1.6}, {-1, -2, -1}, {3.6, 3.6}, 8}};
   if (mesh == shapes) {
     add_shapes(scene);
+  } else if (mesh == terrain) {
+    add_terrain(scene);
   } else {
     put_on_stage(scene, read_mesh(file_of(mesh)));
   }

@@ -20,6 +20,9 @@ struct MeshScene {
   LocalArea bulb_area, sun_area;
 };
 
+// A million triangles, made here: for builds only.
+inline constexpr const char* terrain = "terrain";
+
 // A mesh that is made here, then those found in the folder that the environment variable
 // PAHRENDER_MESHES names. Says on stderr which are not.
 [[nodiscard]] std::vector<std::string> mesh_names();

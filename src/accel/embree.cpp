@@ -22,11 +22,12 @@ namespace {
 
 class Embree final : public Accelerator {
  public:
-  explicit Embree(const Triangles& triangles) {
+  Embree(const Triangles& triangles, EmbreeQuality quality) {
     if (device_ == nullptr) throw std::runtime_error("Embree cannot be started");
     rtcSetDeviceMemoryMonitorFunction(device_, count_bytes, &bytes_);
     scene_ = rtcNewScene(device_);
-    rtcSetSceneBuildQuality(scene_, RTC_BUILD_QUALITY_HIGH);
+    rtcSetSceneBuildQuality(
+        scene_, quality == EmbreeQuality::high ? RTC_BUILD_QUALITY_HIGH : RTC_BUILD_QUALITY_MEDIUM);
     if (triangles.size() > 0) add(triangles);
     rtcCommitScene(scene_);
     if (const RTCError error = rtcGetDeviceError(device_); error != RTC_ERROR_NONE) {
@@ -121,8 +122,8 @@ class Embree final : public Accelerator {
 
 }  // namespace
 
-std::unique_ptr<Accelerator> make_embree(Triangles triangles) {
-  return std::make_unique<Embree>(triangles);
+std::unique_ptr<Accelerator> make_embree(Triangles triangles, EmbreeQuality quality) {
+  return std::make_unique<Embree>(triangles, quality);
 }
 
 bool has_embree() { return true; }
@@ -130,7 +131,9 @@ const char* embree_version() { return RTC_VERSION_STRING; }
 
 #else
 
-std::unique_ptr<Accelerator> make_embree(Triangles /*triangles*/) { return nullptr; }
+std::unique_ptr<Accelerator> make_embree(Triangles /*triangles*/, EmbreeQuality /*quality*/) {
+  return nullptr;
+}
 
 bool has_embree() { return false; }
 const char* embree_version() { return ""; }

@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <limits>
+#include <memory>
 #include <numeric>
+#include <optional>
 #include <stdexcept>
 
+#include "bvh/bins.hpp"
 #include "parallel/parallel_for.hpp"
 #include "parallel/task_group.hpp"
 
@@ -14,269 +16,288 @@ namespace pah {
 
 namespace {
 
-constexpr std::uint32_t max_bins = BuildConfig::max_bins;
-// Ranges below this are not worth a task. The tree does not depend on it.
-constexpr std::size_t parallel_grain = 4096;
+// Ranges below these are not worth a task. The tree does not depend on the first.
+constexpr std::uint32_t task_grain = 4096;
+constexpr std::size_t pass_grain = 16384;
 
-struct Bin {
-  Aabb box;
-  std::uint32_t count = 0;
+// Items, and as much room to move them to.
+struct Range {
+  Item* items;
+  Item* room;
+  std::uint32_t first;  // of the order
+  std::uint32_t count;
 
-  void extend(const Bin& other) {
-    box.extend(other.box);
-    count += other.count;
+  [[nodiscard]] std::span<Item> span() const { return {items, count}; }
+  [[nodiscard]] Range part(std::uint32_t from, std::uint32_t size) const {
+    return {items + from, room + from, first + from, size};
   }
+  [[nodiscard]] Range moved() const { return {room, items, first, count}; }
 };
 
-// Maps centroids to bins, per axis. An axis of no extent cannot be split: its scale is 0.
-struct Binning {
-  Vec3 origin{0};
-  Vec3 scale{0};
-  std::uint32_t bins = 0;
-
-  Binning(const Aabb& centroids, std::uint32_t bin_count, AxisMask axes)
-      : origin(centroids.min), bins(bin_count) {
-    for (int axis = 0; axis < 3; ++axis) {
-      const float s = static_cast<float>(bins) / (centroids.max[axis] - centroids.min[axis]);
-      const bool usable = (axes >> axis & 1U) != 0 && s <= std::numeric_limits<float>::max();
-      scale[axis] = usable ? s : 0;
-    }
-  }
-  [[nodiscard]] std::uint32_t bin(float centroid, int axis) const {
-    const float position = (centroid - origin[axis]) * scale[axis];
-    return position < static_cast<float>(bins) ? static_cast<std::uint32_t>(position) : bins - 1;
-  }
+struct Parts {
+  Range left, right;
+  Box4 left_box, right_box;
 };
 
-using Bins = std::array<std::array<Bin, max_bins>, 3>;
-
-// What a sweep notes. Kept for each thread: clearing it costs more than most nodes do.
-struct Halves {
-  static constexpr std::size_t size = std::size_t{2} * max_bins;
-  std::array<Aabb, size> boxes;
-  std::array<std::uint32_t, size> counts;
-  std::array<float, size> measures;
-};
-
-struct Split {
-  float cost = std::numeric_limits<float>::infinity();
-  int axis = 0;
-  std::uint32_t bin = 0;  // the first of the right side
-};
-
-struct Item {
-  Aabb box;
-  std::uint32_t index;
-
-  [[nodiscard]] Vec3 centroid() const { return box.center(); }
-};
-
-struct NodeBounds {
-  Aabb box;
-  Aabb centroids;
-
-  void extend(const Item& item) {
-    box.extend(item.box);
-    centroids.extend(item.centroid());
-  }
-  void extend(const NodeBounds& other) {
-    box.extend(other.box);
-    centroids.extend(other.centroids);
-  }
-};
-
-// Folds `add(partial, item)` over items.
+// Folds `add(partial, items)` over items.
 template <typename Value, typename Add, typename Join>
 [[nodiscard]] Value fold(std::span<const Item> items, const Value& zero, const Add& add,
                          const Join& join) {
   const auto serial = [&](std::size_t first, std::size_t last) {
     Value value = zero;
-    for (std::size_t i = first; i < last; ++i) add(value, items[i]);
+    add(value, items.subspan(first, last - first));
     return value;
   };
-  if (items.size() < 4 * parallel_grain) return serial(0, items.size());
-  return parallel_fold(items.size(), 4 * parallel_grain, zero, serial, join);
+  if (items.size() < 2 * pass_grain) return serial(0, items.size());
+  return parallel_fold(items.size(), pass_grain, zero, serial, join);
 }
 
-class Builder {
+[[nodiscard]] Box4 box_of(std::span<const Item> items) {
+  return fold(
+      items, Box4::empty(),
+      [](Box4& box, std::span<const Item> some) {
+        for (const Item& item : some) box.extend(item.box);
+      },
+      [](Box4& a, const Box4& b) { a.extend(b); });
+}
+
+[[nodiscard]] Box4 centroids_of(std::span<const Item> items) {
+  return fold(
+      items, Box4::empty(),
+      [](Box4& box, std::span<const Item> some) {
+        for (const Item& item : some) box.extend(item.centroid());
+      },
+      [](Box4& a, const Box4& b) { a.extend(b); });
+}
+
+// Decides where to split, and sorts by it.
+class Splitter {
  public:
-  Builder(std::vector<Item>& items, const BuildConfig& config, const BuildHeuristic& heuristic)
-      : items_(items),
-        bins_(std::clamp(config.bins, BuildConfig::min_bins, max_bins)),
+  Splitter(const BuildConfig& config, const BuildHeuristic& heuristic)
+      : bins_(std::clamp(config.bins, BuildConfig::min_bins, BuildConfig::max_bins)),
         max_leaf_(std::max(config.max_leaf, 1U)),
         side_by_side_(std::max(config.side_by_side, 1U)),
         heuristic_(heuristic),
-        // A subtree of n items has at most 2n - 1 nodes: each range has its own slots, so that
-        // tasks need not agree on who takes which.
-        nodes_(2 * items.size()) {}
+        by_area_(heuristic.by_area()) {}
 
-  [[nodiscard]] BinaryTree build() {
-    BinaryTree tree;
-    if (items_.empty()) return tree;
-    nodes_[0].box = bounds(items_).box;
-    subdivide(0, 1, 0, static_cast<std::uint32_t>(items_.size()), 0);
-    tasks_.wait();
-    tree.order.resize(items_.size());
-    for (std::size_t i = 0; i < items_.size(); ++i) tree.order[i] = items_[i].index;
-    compact(tree);
-    return tree;
+  // Nothing: a leaf.
+  [[nodiscard, gnu::noinline]] std::optional<Parts> split(const Range& range, const Box4& box,
+                                                          std::uint32_t depth) const {
+    // The two boxes of a split cost more than so small a leaf.
+    const bool leaf_allowed = range.count <= max_leaf_;
+    if (leaf_allowed && leaf_cost(range.count, side_by_side_) <= 2 * box_cost) return std::nullopt;
+    if (range.count == 1) return std::nullopt;
+    const Box4 centroids = centroids_of(range.span());
+    if (depth >= max_cost_depth) {
+      if (leaf_allowed) return std::nullopt;
+      return halve(range, centroids);
+    }
+
+    // Few items need few bins.
+    const std::uint32_t bins_used = std::min(bins_, std::max(4U, 2 * range.count));
+    const Binning binning(centroids, bins_used, heuristic_.axes(box.aabb()));
+    Bins bins(bins_used);
+    const std::vector<Bins> chunks = chunks_of(range, binning);
+    if (chunks.empty()) bins.add(range.span(), binning);
+    for (const Bins& chunk : chunks) bins.add(chunk);
+    const Split best = by_area_ ? bins.cheapest_by_area(binning, side_by_side_)
+                                : bins.cheapest(binning, heuristic_.measure, side_by_side_);
+    if (leaf_allowed) {
+      const float measure = measure_of(heuristic_.measure, box.aabb());
+      const float split_cost = 2 * box_cost * measure + best.cost;
+      if (!(split_cost < leaf_cost(range.count, side_by_side_) * measure)) return std::nullopt;
+    }
+    if (best.bin == 0) return halve(range, centroids);
+    const SplitBoxes sides = bins.at(best);
+    partition(range, binning.side_of(best), sides.left_count, best, chunks);
+    return parts_of(range.moved(), sides);
   }
 
  private:
-  [[nodiscard]] static NodeBounds bounds(std::span<const Item> items) {
-    return fold(
-        items, NodeBounds{}, [](NodeBounds& b, const Item& item) { b.extend(item); },
-        [](NodeBounds& a, const NodeBounds& b) { a.extend(b); });
-  }
-
-  // Fills node `slot`; its descendants take slots from `free` on.
-  void subdivide(std::uint32_t slot, std::uint32_t free, std::uint32_t first, std::uint32_t count,
-                 std::uint32_t depth) {
-    for (;;) {
-      const std::span<Item> items(items_.data() + first, count);
-      const NodeBounds node = bounds(items);
-      nodes_[slot].box = node.box;
-      const std::uint32_t left_count = count > 1 ? split(items, node, depth) : 0;
-      if (left_count == 0) {
-        nodes_[slot].first = first;
-        nodes_[slot].count = count;
-        return;
-      }
-      nodes_[slot].first = free;
-      const std::uint32_t right_free = free + 2 + 2 * (left_count - 1);
-      const std::uint32_t right_count = count - left_count;
-      if (left_count >= parallel_grain && right_count >= parallel_grain) {
-        tasks_.run([this, free, first, left_count, depth] {
-          subdivide(free, free + 2, first, left_count, depth + 1);
-        });
-      } else {
-        subdivide(free, free + 2, first, left_count, depth + 1);
-      }
-      slot = free + 1;
-      free = right_free;
-      first += left_count;
-      count = right_count;
-      ++depth;
-    }
-  }
-
-  // Reorders the items into left and right; how many are left, or 0 to make a leaf.
-  [[nodiscard]] std::uint32_t split(std::span<Item> items, const NodeBounds& node,
-                                    std::uint32_t depth) const {
-    const auto count = static_cast<std::uint32_t>(items.size());
-    if (depth >= max_cost_depth) return count <= max_leaf_ ? 0 : halve(items, node.centroids);
-
-    // Few items need few bins.
-    const std::uint32_t bins = std::min(bins_, std::max(4U, 2 * count));
-    const Binning binning(node.centroids, bins, heuristic_.axes(node.box));
-    const Split best = cheapest(items, binning);
-    const float measure = measure_of(heuristic_.measure, node.box);
-    const float split_cost = 2 * box_cost * measure + best.cost;
-    if (count <= max_leaf_ && !(split_cost < leaf_cost(count, side_by_side_) * measure)) return 0;
-    if (best.bin == 0) return halve(items, node.centroids);
-
-    const auto middle = std::partition(items.begin(), items.end(), [&](const Item& item) {
-      return binning.bin(item.centroid()[best.axis], best.axis) < best.bin;
+  // Nothing for small ranges: what is one chunk need not be joined.
+  [[nodiscard]] static std::vector<Bins> chunks_of(const Range& range, const Binning& binning) {
+    if (range.count < 2 * pass_grain) return {};
+    std::vector<Bins> chunks((range.count + pass_grain - 1) / pass_grain, Bins(binning.bins()));
+    parallel_for(chunks.size(), 1, [&](std::size_t i) {
+      const std::size_t first = i * pass_grain;
+      const std::size_t size = std::min(pass_grain, range.count - first);
+      chunks[i].add(range.span().subspan(first, size), binning);
     });
-    return static_cast<std::uint32_t>(middle - items.begin());
+    return chunks;
   }
 
-  [[nodiscard]] Split cheapest(std::span<const Item> items, const Binning& binning) const {
-    const Bins bins = fold(
-        items, Bins{},
-        [&](Bins& b, const Item& item) {
-          const Vec3 centroid = item.centroid();
-          for (int axis = 0; axis < 3; ++axis) {
-            Bin& bin = b[static_cast<std::size_t>(axis)][binning.bin(centroid[axis], axis)];
-            bin.box.extend(item.box);
-            ++bin.count;
-          }
-        },
-        [&](Bins& a, const Bins& b) {
-          for (std::size_t axis = 0; axis < 3; ++axis) {
-            for (std::uint32_t i = 0; i < binning.bins; ++i) a[axis][i].extend(b[axis][i]);
-          }
-        });
-
-    Split best;
-    for (int axis = 0; axis < 3; ++axis) {
-      if (binning.scale[axis] > 0)
-        sweep(bins[static_cast<std::size_t>(axis)], binning.bins, axis, best);
-    }
-    return best;
+  [[nodiscard]] static Parts parts_of(const Range& range, const SplitBoxes& sides) {
+    return {range.part(0, sides.left_count),
+            range.part(sides.left_count, range.count - sides.left_count), sides.left, sides.right};
   }
 
-  // Counts and boxes are swept from both ends; nothing is sorted.
-  void sweep(const std::array<Bin, max_bins>& bins, std::uint32_t count, int axis,
-             Split& best) const {
-    // What would be left and right of a split before bin i stands at i - 1 of either half.
-    const std::uint32_t splits = count - 1;
-    static thread_local Halves halves;
-    auto& [boxes, counts, measures] = halves;
-    Bin right;
-    for (std::uint32_t i = splits; i > 0; --i) {
-      right.extend(bins[i]);
-      boxes[splits + i - 1] = right.box;
-      counts[splits + i - 1] = right.count;
-    }
-    Bin left;
-    for (std::uint32_t i = 0; i < splits; ++i) {
-      left.extend(bins[i]);
-      boxes[i] = left.box;
-      counts[i] = left.count;
-    }
-    const std::size_t used = std::size_t{2} * splits;
-    heuristic_.measure(std::span(boxes).first(used), std::span(measures).first(used));
-    for (std::uint32_t i = 0; i < splits; ++i) {
-      if (counts[i] == 0 || counts[splits + i] == 0) continue;
-      const float right_cost = measures[splits + i] * leaf_cost(counts[splits + i], side_by_side_);
-      const float cost = measures[i] * leaf_cost(counts[i], side_by_side_) + right_cost;
-      if (cost < best.cost) best = {cost, axis, i + 1};
-    }
+  // Moves the items into the room, each side in its order.
+  static void partition(const Range& range, const Side& side, std::uint32_t left_count,
+                        const Split& split, std::span<const Bins> chunks) {
+    const auto move = [&](std::size_t first, std::size_t last, std::size_t left,
+                          std::size_t right) {
+      for (std::size_t i = first; i < last; ++i) {
+        const bool to_right = side.is_right(range.items[i]);
+        range.room[to_right ? right : left] = range.items[i];
+        right += to_right ? 1 : 0;
+        left += to_right ? 0 : 1;
+      }
+    };
+    if (chunks.empty()) return move(0, range.count, 0, left_count);
+    std::vector<std::size_t> lefts(chunks.size());
+    std::transform_exclusive_scan(
+        chunks.begin(), chunks.end(), lefts.begin(), std::size_t{0}, std::plus<>{},
+        [&](const Bins& chunk) -> std::size_t { return chunk.at(split).left_count; });
+    parallel_for(chunks.size(), 1, [&](std::size_t i) {
+      const std::size_t first = i * pass_grain;
+      const std::size_t last = std::min<std::size_t>(first + pass_grain, range.count);
+      move(first, last, lefts[i], left_count + first - lefts[i]);
+    });
   }
 
   // The object median along the longest axis of the centroids; ties by index.
-  [[nodiscard]] static std::uint32_t halve(std::span<Item> items, const Aabb& centroids) {
-    const int axis = std::countr_zero(longest_axis(centroids));
-    const auto middle = items.begin() + static_cast<std::ptrdiff_t>(items.size() / 2);
-    if (centroids.extent()[axis] > 0) {
-      std::nth_element(items.begin(), middle, items.end(), [axis](const Item& a, const Item& b) {
-        const float x = a.centroid()[axis];
-        const float y = b.centroid()[axis];
-        return x < y || (x == y && a.index < b.index);
-      });
+  [[nodiscard]] static Parts halve(const Range& range, const Box4& centroids) {
+    const int axis = std::countr_zero(longest_axis(centroids.aabb()));
+    const std::span<Item> items = range.span();
+    const std::uint32_t half = range.count / 2;
+    if (centroids.max[axis] - centroids.min[axis] > 0) {
+      std::nth_element(items.begin(), items.begin() + half, items.end(),
+                       [axis](const Item& a, const Item& b) {
+                         const float x = a.centroid()[axis];
+                         const float y = b.centroid()[axis];
+                         return x < y || (x == y && a.index() < b.index());
+                       });
     }
-    return static_cast<std::uint32_t>(items.size() / 2);
+    return parts_of(range, {half, box_of(items.first(half)), box_of(items.subspan(half))});
   }
 
-  // Depth-first, siblings side by side.
-  void compact(BinaryTree& tree) const {
-    tree.nodes.reserve(nodes_.size());
-    tree.nodes.push_back(nodes_[0]);
-    std::vector<std::uint32_t> open{0};
-    while (!open.empty()) {
-      const std::uint32_t at = open.back();
-      open.pop_back();
-      BinaryTree::Node& node = tree.nodes[at];
-      if (node.leaf()) continue;
-      const std::uint32_t from = node.first;
-      node.first = static_cast<std::uint32_t>(tree.nodes.size());
-      open.push_back(node.first + 1);
-      open.push_back(node.first);
-      tree.nodes.push_back(nodes_[from]);
-      tree.nodes.push_back(nodes_[from + 1]);
-    }
-    tree.nodes.shrink_to_fit();
-  }
-
-  std::vector<Item>& items_;
   std::uint32_t bins_;
   std::uint32_t max_leaf_;
   std::uint32_t side_by_side_;
   const BuildHeuristic& heuristic_;
-  std::vector<BinaryTree::Node> nodes_;
+  bool by_area_;
+};
+
+using Node = BinaryTree::Node;
+
+// A node and what is below it: two pieces that others may make, or all its nodes, in which inner
+// nodes count from the first of them.
+struct Piece {
+  Node node;
+  std::unique_ptr<std::array<Piece, 2>> sides;
+  std::vector<Node> below;
+};
+
+class Builder {
+ public:
+  Builder(const BuildConfig& config, const BuildHeuristic& heuristic)
+      : splitter_(config, heuristic) {}
+
+  [[nodiscard]] BinaryTree build(std::span<Item> items, std::span<Item> room) {
+    const auto count = static_cast<std::uint32_t>(items.size());
+    tree_.order.resize(count);
+    Piece root;
+    grow(root, {items.data(), room.data(), 0, count}, box_of(items), 0);
+    tasks_.wait();
+    tree_.nodes.reserve(nodes_in(root));
+    append(root, tree_.nodes.emplace_back());
+    return std::move(tree_);
+  }
+
+ private:
+  void make_leaf(Node& node, const Range& range) {
+    node.first = range.first;
+    node.count = range.count;
+    for (std::uint32_t i = 0; i < range.count; ++i)
+      tree_.order[range.first + i] = range.items[i].index();
+  }
+
+  void grow(Piece& piece, const Range& range, const Box4& box, std::uint32_t depth) {
+    if (range.count < task_grain) {
+      piece.below.reserve(range.count / 2);
+      return subdivide(piece.node, piece.below, range, box, depth);
+    }
+    piece.node.box = box.aabb();
+    const std::optional<Parts> parts = splitter_.split(range, box, depth);
+    if (!parts) return make_leaf(piece.node, range);
+    piece.sides = std::make_unique<std::array<Piece, 2>>();
+    auto& [left, right] = *piece.sides;
+    tasks_.run([this, &right = right, range = parts->right, box = parts->right_box, depth] {
+      grow(right, range, box, depth + 1);
+    });
+    grow(left, parts->left, parts->left_box, depth + 1);
+  }
+
+  // Depth-first, siblings side by side.
+  Node subdivided(std::vector<Node>& nodes, const Range& range, const Box4& box,
+                  std::uint32_t depth) {
+    Node node;
+    subdivide(node, nodes, range, box, depth);
+    return node;
+  }
+  void subdivide(Node& node, std::vector<Node>& nodes, const Range& range, const Box4& box,
+                 std::uint32_t depth) {
+    node.box = box.aabb();
+    const std::optional<Parts> parts = splitter_.split(range, box, depth);
+    if (!parts) return make_leaf(node, range);
+    const std::size_t first = nodes.size();
+    node.first = static_cast<std::uint32_t>(first);
+    nodes.resize(first + 2);
+    nodes[first] = subdivided(nodes, parts->left, parts->left_box, depth + 1);
+    nodes[first + 1] = subdivided(nodes, parts->right, parts->right_box, depth + 1);
+  }
+
+  [[nodiscard]] static std::size_t nodes_in(const Piece& piece) {
+    if (!piece.sides) return 1 + piece.below.size();
+    return 1 + nodes_in((*piece.sides)[0]) + nodes_in((*piece.sides)[1]);
+  }
+
+  // `slot` is in the tree, which has room for all: it stays where it is.
+  void append(const Piece& piece, Node& slot) {
+    slot = piece.node;
+    if (slot.leaf()) return;
+    std::vector<Node>& nodes = tree_.nodes;
+    const auto first = static_cast<std::uint32_t>(nodes.size());
+    if (piece.sides) {
+      slot.first = first;
+      nodes.resize(first + std::size_t{2});
+      append((*piece.sides)[0], nodes[first]);
+      append((*piece.sides)[1], nodes[first + 1]);
+      return;
+    }
+    slot.first += first;
+    for (Node node : piece.below) {
+      if (!node.leaf()) node.first += first;
+      nodes.push_back(node);
+    }
+  }
+
+  Splitter splitter_;
+  BinaryTree tree_;
   TaskGroup tasks_;
 };
+
+template <typename BoxAt>
+[[nodiscard]] BinaryTree build_from(std::size_t count, const BoxAt& box_at,
+                                    const BuildConfig& config, const BuildHeuristic& heuristic) {
+  if (count >> 31U != 0) throw std::length_error("there are too many boxes for one tree");
+  if (count == 0) return {};
+  const auto items = std::make_unique_for_overwrite<Item[]>(2 * count);
+  parallel_for(count, task_grain,
+               [&](std::size_t i) { items[i] = Item(box_at(i), static_cast<std::uint32_t>(i)); });
+  return Builder(config, heuristic).build({&items[0], count}, {&items[count], count});
+}
+
+[[nodiscard]] std::vector<float> measures_of(const BinaryTree& tree, const BoxMeasure& measure) {
+  constexpr std::size_t at_once = 512;
+  std::vector<float> measures(tree.nodes.size());
+  parallel_ranges(measures.size(), at_once, [&](std::size_t first, std::size_t last) {
+    std::array<Aabb, at_once> boxes;
+    for (std::size_t i = first; i < last; ++i) boxes[i - first] = tree.nodes[i].box;
+    measure(std::span(boxes).first(last - first), std::span(measures).subspan(first, last - first));
+  });
+  return measures;
+}
 
 }  // namespace
 
@@ -287,26 +308,17 @@ AxisMask longest_axis(const Aabb& box) {
 
 BinaryTree build_tree(std::span<const Aabb> boxes, const BuildConfig& config,
                       const BuildHeuristic& heuristic) {
-  if (boxes.size() >> 31U != 0) throw std::length_error("there are too many boxes for one tree");
-  std::vector<Item> items(boxes.size());
-  parallel_for(boxes.size(), parallel_grain, [&](std::size_t i) {
-    items[i] = {boxes[i], static_cast<std::uint32_t>(i)};
-  });
-  return Builder(items, config, heuristic).build();
+  return build_from(
+      boxes.size(), [&](std::size_t i) { return boxes[i]; }, config, heuristic);
 }
 
 BuiltBvh build_bvh(const Triangles& triangles, std::span<const std::uint32_t> subset,
                    BuildConfig config, const BuildHeuristic& heuristic) {
   config.max_leaf = std::min(config.max_leaf, ChildRef::max_leaf);
-  std::vector<Aabb> boxes(subset.size());
-  parallel_for(boxes.size(), parallel_grain,
-               [&](std::size_t i) { boxes[i] = padded(triangles[subset[i]].bounds()); });
-  BinaryTree tree = build_tree(boxes, config, heuristic);
-  boxes.resize(tree.nodes.size());
-  std::ranges::transform(tree.nodes, boxes.begin(), &BinaryTree::Node::box);
-  std::vector<float> measures(boxes.size());
-  heuristic.measure(boxes, measures);
-  Bvh bvh = collapse(tree, measures, triangles, subset);
+  BinaryTree tree = build_from(
+      subset.size(), [&](std::size_t i) { return padded(triangles[subset[i]].bounds()); }, config,
+      heuristic);
+  Bvh bvh = collapse(tree, measures_of(tree, heuristic.measure), triangles, subset);
   return {std::move(bvh), std::move(tree)};
 }
 

@@ -1,11 +1,21 @@
 #include "bvh/bvh.hpp"
 
 #include <algorithm>
-#include <limits>
+#include <array>
+
+#include "parallel/parallel_for.hpp"
 
 namespace pah {
 
 namespace {
+
+// What becomes a wide node, and where its inner nodes and leaves will stand.
+struct Children {
+  std::array<std::uint32_t, BvhNode::width> nodes;
+  std::uint32_t count;
+  std::uint32_t first_inner;
+  std::size_t first_block;
+};
 
 class Collapser {
  public:
@@ -15,74 +25,88 @@ class Collapser {
 
   [[nodiscard]] Bvh run() {
     if (tree_.empty()) return {};
-    Children root{};
-    if (tree_.nodes.front().leaf()) {
-      root.add(0);  // a node of one child
-    } else {
-      root = open(0);
-    }
-    // Breadth first, so that the top of the tree, which every ray visits, lies together.
-    std::vector<Children> queue{root};
-    for (std::size_t i = 0; i < queue.size(); ++i) {
-      const Children children = queue[i];
-      BvhNode node{};
-      for (std::size_t k = 0; k < BvhNode::width; ++k) {
-        const bool used = k < children.count;
-        const Aabb box = used ? node_box(tree_.nodes[children.nodes[k]].box) : Aabb{};
-        for (int axis = 0; axis < 3; ++axis) {
-          node.planes[axis][0][k] = box.min[axis];
-          node.planes[axis][1][k] = box.max[axis];
-        }
-        if (!used) continue;
-        const BinaryTree::Node& child = tree_.nodes[children.nodes[k]];
-        if (child.leaf()) {
-          node.children[k] = add_leaf(child);
-        } else {
-          node.children[k] = ChildRef::inner(static_cast<std::uint32_t>(queue.size()));
-          queue.push_back(open(children.nodes[k]));
-        }
-      }
-      bvh_.nodes.push_back(node);
-    }
-    bvh_.nodes.shrink_to_fit();
-    bvh_.blocks.shrink_to_fit();
+    choose();
+    bvh_.nodes.resize(wide_.size());
+    bvh_.blocks.resize(blocks_);
+    parallel_for(wide_.size(), 256, [this](std::size_t i) { fill(i); });
     return std::move(bvh_);
   }
 
  private:
-  struct Children {
-    std::array<std::uint32_t, BvhNode::width> nodes;
-    std::size_t count;
-    void add(std::uint32_t node) { nodes[count++] = node; }
-  };
+  // Breadth first, so that the top of the tree, which every ray visits, lies together.
+  void choose() {
+    wide_.reserve(tree_.nodes.size() / 4 + 1);
+    wide_.push_back(tree_.nodes.front().leaf() ? Children{{0}, 1, 0, 0}  // a node of one child
+                                               : open(0));
+    for (std::size_t i = 0; i < wide_.size(); ++i) {
+      wide_[i].first_inner = static_cast<std::uint32_t>(wide_.size());
+      wide_[i].first_block = blocks_;
+      const Children children = wide_[i];
+      for (std::size_t k = 0; k < children.count; ++k) {
+        const BinaryTree::Node& child = tree_.nodes[children.nodes[k]];
+        if (child.leaf()) {
+          blocks_ += blocks_of(child);
+        } else {
+          wide_.push_back(open(children.nodes[k]));
+        }
+      }
+    }
+  }
 
   // The children of a wide node: the largest inner node is replaced by its two, until it is full.
   [[nodiscard]] Children open(std::uint32_t node) const {
+    constexpr float never = -1;
     Children children{};
-    children.add(tree_.nodes[node].first);
-    children.add(tree_.nodes[node].first + 1);
-    while (children.count < BvhNode::width) {
-      std::size_t largest = BvhNode::width;
-      for (std::size_t k = 0; k < children.count; ++k) {
-        if (tree_.nodes[children.nodes[k]].leaf()) continue;
-        if (largest == BvhNode::width ||
-            areas_[children.nodes[k]] > areas_[children.nodes[largest]]) {
-          largest = k;
-        }
-      }
-      if (largest == BvhNode::width) break;
-      const std::uint32_t first = tree_.nodes[children.nodes[largest]].first;
-      children.nodes[largest] = first;
-      children.add(first + 1);
+    std::array<float, BvhNode::width> areas;
+    const auto put = [&](std::size_t at, std::uint32_t child) {
+      children.nodes[at] = child;
+      areas[at] = tree_.nodes[child].leaf() ? never : areas_[child];
+    };
+    put(0, tree_.nodes[node].first);
+    put(1, tree_.nodes[node].first + 1);
+    for (children.count = 2; children.count < BvhNode::width; ++children.count) {
+      const auto* const largest = std::max_element(areas.begin(), areas.begin() + children.count);
+      if (*largest == never) break;
+      const auto opened = static_cast<std::size_t>(largest - areas.begin());
+      const std::uint32_t first = tree_.nodes[children.nodes[opened]].first;
+      put(opened, first);
+      put(children.count, first + 1);
     }
     return children;
   }
 
-  [[nodiscard]] ChildRef add_leaf(const BinaryTree::Node& leaf) {
-    const std::size_t first_block = bvh_.blocks.size();
+  void fill(std::size_t i) {
+    const Children& children = wide_[i];
+    BvhNode& node = bvh_.nodes[i];
+    std::uint32_t inner = children.first_inner;
+    std::size_t block = children.first_block;
+    for (std::size_t k = 0; k < BvhNode::width; ++k) {
+      const bool used = k < children.count;
+      const Aabb box = used ? node_box(tree_.nodes[children.nodes[k]].box) : Aabb{};
+      for (int axis = 0; axis < 3; ++axis) {
+        node.planes[axis][0][k] = box.min[axis];
+        node.planes[axis][1][k] = box.max[axis];
+      }
+      if (!used) continue;
+      const BinaryTree::Node& child = tree_.nodes[children.nodes[k]];
+      if (child.leaf()) {
+        node.children[k] = ChildRef::leaf(block, child.count);
+        fill_blocks(child, block);
+        block += blocks_of(child);
+      } else {
+        node.children[k] = ChildRef::inner(inner++);
+      }
+    }
+  }
+
+  [[nodiscard]] static std::size_t blocks_of(const BinaryTree::Node& leaf) {
+    return (leaf.count + TriangleBlock::width - 1) / TriangleBlock::width;
+  }
+
+  void fill_blocks(const BinaryTree::Node& leaf, std::size_t first_block) {
     constexpr auto width = static_cast<std::uint32_t>(TriangleBlock::width);
     for (std::uint32_t begin = 0; begin < leaf.count; begin += width) {
-      TriangleBlock& block = bvh_.blocks.emplace_back();
+      TriangleBlock& block = bvh_.blocks[first_block++];
       for (std::uint32_t lane = 0; lane < width; ++lane) {
         const std::uint32_t item = leaf.first + std::min(begin + lane, leaf.count - 1);
         const std::uint32_t index = subset_[tree_.order[item]];
@@ -98,13 +122,14 @@ class Collapser {
             triangle_padding * largest_of(glm::max(glm::abs(b.min), glm::abs(b.max)));
       }
     }
-    return ChildRef::leaf(first_block, leaf.count);
   }
 
   const BinaryTree& tree_;
   std::span<const float> areas_;
   const Triangles& triangles_;
   std::span<const std::uint32_t> subset_;
+  std::vector<Children> wide_;
+  std::size_t blocks_ = 0;
   Bvh bvh_;
 };
 

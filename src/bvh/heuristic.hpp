@@ -14,10 +14,16 @@ using BoxMeasure = std::function<void(std::span<const Aabb>, std::span<float>)>;
 
 // A measure from what has `area(box)`.
 template <typename OneBox>
-[[nodiscard]] BoxMeasure each_box(OneBox one) {
-  return [one](std::span<const Aabb> boxes, std::span<float> measures) {
+struct EachBox {
+  OneBox one;
+
+  void operator()(std::span<const Aabb> boxes, std::span<float> measures) const {
     for (std::size_t i = 0; i < boxes.size(); ++i) measures[i] = one.area(boxes[i]);
-  };
+  }
+};
+template <typename OneBox>
+[[nodiscard]] BoxMeasure each_box(OneBox one) {
+  return EachBox<OneBox>{one};
 }
 
 [[nodiscard]] inline float measure_of(const BoxMeasure& measure, const Aabb& box) {
@@ -29,6 +35,9 @@ template <typename OneBox>
 struct BuildHeuristic {
   BoxMeasure measure;
   std::function<AxisMask(const Aabb&)> axes;  // that may be split, of a node
+
+  // The builder knows this measure itself.
+  [[nodiscard]] bool by_area() const { return measure.target<EachBox<SurfaceArea>>() != nullptr; }
 };
 
 [[nodiscard]] inline AxisMask any_axis(const Aabb& /*box*/) { return all_axes; }

@@ -45,7 +45,10 @@ class Accelerator {
 
 // Embree, as a peer to measure against: its ray-triangle test is its own, so that its answers are
 // not the others' to the last bit, and it counts nothing. Null if this was built without Embree.
-[[nodiscard]] std::unique_ptr<Accelerator> make_embree(Triangles triangles);
+// High quality splits triangles; medium is binned SAH, as ours is.
+enum class EmbreeQuality : std::uint8_t { medium, high };
+[[nodiscard]] std::unique_ptr<Accelerator> make_embree(Triangles triangles,
+                                                       EmbreeQuality quality = EmbreeQuality::high);
 [[nodiscard]] bool has_embree();
 
 // One BVH over all triangles, by the surface area heuristic, built by the calling arena's threads.
