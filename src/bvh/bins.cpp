@@ -95,8 +95,8 @@ Split Bins::cheapest(const Binning& binning, const BoxMeasure& measure,
   return best;
 }
 
-// Boxes are swept from both ends, a lane an axis. A side without items costs infinity times 0,
-// which is less than nothing.
+// Boxes are swept from both ends, a lane an axis. A side without items costs infinity times 0:
+// not a number, which is never cheaper.
 Split Bins::cheapest_by_area(const Binning& binning, std::uint32_t side_by_side) const {
   const Float4 rounds_of = splat(static_cast<float>(side_by_side));
   std::array<Float4, BuildConfig::max_bins> right_costs;
