@@ -27,7 +27,7 @@ HWY_INLINE std::uint32_t bits(D d, M mask) {
   return bytes[0];
 }
 
-// A ray as nodes are tested with it.
+// A ray as nodes are tested with it: by ray_box.hpp's test of nodes, whose rounding is free.
 struct NodeRay {
   using D = hn::CappedTag<float, BvhNode::width>;
   hn::Vec<D> inverse[3];
