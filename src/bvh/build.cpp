@@ -222,11 +222,11 @@ class Builder {
     const std::optional<Parts> parts = splitter_.split(range, box, depth);
     if (!parts) return make_leaf(piece.node, range);
     piece.sides = std::make_unique<std::array<Piece, 2>>();
-    auto& [left, right] = *piece.sides;
-    tasks_.run([this, &right = right, range = parts->right, box = parts->right_box, depth] {
-      grow(right, range, box, depth + 1);
+    Piece& right = piece.sides->back();
+    tasks_.run([this, &right, side = parts->right, side_box = parts->right_box, depth] {
+      grow(right, side, side_box, depth + 1);
     });
-    grow(left, parts->left, parts->left_box, depth + 1);
+    grow(piece.sides->front(), parts->left, parts->left_box, depth + 1);
   }
 
   // Depth-first, siblings side by side.
