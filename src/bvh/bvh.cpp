@@ -117,9 +117,7 @@ class Collapser {
           block.vertices[2][axis][lane] = triangle.c[axis];
         }
         block.indices[lane] = index;
-        const Aabb b = triangle.bounds();
-        block.padding[lane] =
-            triangle_padding * largest_of(glm::max(glm::abs(b.min), glm::abs(b.max)));
+        block.padding[lane] = padding_of(triangle.bounds());
       }
     }
   }

@@ -97,103 +97,100 @@ struct BlockHits {
   }
 };
 
-// A ray as triangles are tested with it: by the formulas of ray_triangle.hpp, side by side.
-struct TriangleRay {
-  using D = hn::CappedTag<float, TriangleBlock::width>;
-  using V = hn::Vec<D>;
-  const PreparedRay& ray;
+// Triangles side by side, by the formulas of ray_triangle.hpp.
+using TriangleLanes = hn::CappedTag<float, TriangleBlock::width>;
+using TriangleVec = hn::Vec<TriangleLanes>;
 
-  HWY_INLINE explicit TriangleRay(const PreparedRay& prepared) : ray(prepared) {}
-
-  // Which triangles are hit within the limit, or may be.
-  HWY_INLINE std::uint32_t maybe_hit(const TriangleBlock& block, float limit,
-                                     BlockHits& found) const {
-    const D d;
-    const std::size_t axes[3] = {ray.axes[0] * TriangleBlock::width,
-                                 ray.axes[1] * TriangleBlock::width,
-                                 ray.axes[2] * TriangleBlock::width};
-    const V origin[3] = {hn::Set(d, ray.origin[0]), hn::Set(d, ray.origin[1]),
-                         hn::Set(d, ray.origin[2])};
-    const V shear[2] = {hn::Set(d, ray.shear_x), hn::Set(d, ray.shear_y)};
-    std::uint32_t hits = 0;
-    found.known = 0;
-    for (std::size_t lane = 0; lane < TriangleBlock::width; lane += hn::Lanes(d)) {
-      V x[3];
-      V y[3];
-      V z[3];
-      for (int k = 0; k < 3; ++k) {
-        const float* vertex = block.vertices[k][0] + lane;
-        z[k] = hn::Sub(hn::Load(d, vertex + axes[2]), origin[2]);
-        x[k] = hn::Sub(hn::Sub(hn::Load(d, vertex + axes[0]), origin[0]), hn::Mul(shear[0], z[k]));
-        y[k] = hn::Sub(hn::Sub(hn::Load(d, vertex + axes[1]), origin[1]), hn::Mul(shear[1], z[k]));
-      }
-      const V a = hn::Sub(hn::Mul(x[2], y[1]), hn::Mul(y[2], x[1]));
-      const V b = hn::Sub(hn::Mul(x[0], y[2]), hn::Mul(y[0], x[2]));
-      const V c = hn::Sub(hn::Mul(x[1], y[0]), hn::Mul(y[1], x[0]));
-      const auto mixed = hn::And(hn::Lt(hn::Min(hn::Min(a, b), c), hn::Zero(d)),
-                                 hn::Gt(hn::Max(hn::Max(a, b), c), hn::Zero(d)));
-      if (hn::AllTrue(d, mixed)) continue;
-      V near = hn::Zero(d);
-      V far = hn::Set(d, std::numeric_limits<float>::infinity());
-      narrow(block, lane, near, far);
-      const V end = hn::Min(far, hn::Set(d, limit));
-      const auto candidates = hn::AndNot(mixed, hn::Le(near, end));
-      if (hn::AllFalse(d, candidates)) continue;
-
-      const V one = hn::Set(d, 1.0F);
-      const V determinant = hn::Add(hn::Add(a, b), c);
-      const V inverse = hn::Div(one, determinant);
-      const V weight_a = hn::Min(hn::Mul(a, inverse), one);
-      const V weight_b = hn::Min(hn::Mul(b, inverse), one);
-      const V weight_c = hn::Min(hn::Mul(c, inverse), one);
-      const V depth = hn::Add(hn::Add(hn::Mul(weight_a, z[0]), hn::Mul(weight_b, z[1])),
-                              hn::Mul(weight_c, z[2]));
-      const V t = hn::Mul(depth, hn::Set(d, ray.scale_z));
-      const V hit_t = hn::Min(hn::Max(t, near), far);
-      // Most rays start next to a triangle that is just behind them: t < 0, if near is 0.
-      const auto meets =
-          hn::And(hn::Gt(hn::Max(t, near), hn::Zero(d)), hn::Le(hit_t, hn::Set(d, limit)));
-      const V least = hn::Min(hn::Min(hn::Abs(a), hn::Abs(b)), hn::Abs(c));
-      const V size = hn::Abs(determinant);
-      const auto easy = hn::And(hn::Gt(least, hn::Zero(d)),
-                                hn::And(hn::Ge(size, hn::Set(d, detail::least_determinant)),
-                                        hn::Le(size, hn::Set(d, detail::most_determinant))));
-      const std::uint32_t some = bits(d, hn::And(candidates, hn::Or(meets, hn::Not(easy))));
-      if (some == 0) continue;
-      hits |= some << lane;
-      found.known |= bits(d, hn::And(easy, hn::Gt(near, hn::Zero(d)))) << lane;
-      hn::Store(hit_t, d, found.t + lane);
-      hn::Store(weight_b, d, found.u + lane);
-      hn::Store(weight_c, d, found.v + lane);
-    }
-    return hits;
+// To the ray's intervals of the triangles' own padded boxes.
+HWY_INLINE void narrow(const PreparedRay& ray, const TriangleBlock& block, std::size_t lane,
+                       TriangleVec& near, TriangleVec& far) {
+  const TriangleLanes d;
+  TriangleVec low[3];
+  TriangleVec high[3];
+  for (int axis = 0; axis < 3; ++axis) {
+    const TriangleVec p = hn::Load(d, block.vertices[0][axis] + lane);
+    const TriangleVec q = hn::Load(d, block.vertices[1][axis] + lane);
+    const TriangleVec r = hn::Load(d, block.vertices[2][axis] + lane);
+    low[axis] = hn::Min(p, hn::Min(q, r));
+    high[axis] = hn::Max(p, hn::Max(q, r));
   }
-
- private:
-  // To the ray's intervals of the triangles' own padded boxes.
-  HWY_INLINE void narrow(const TriangleBlock& block, std::size_t lane, V& near, V& far) const {
-    const D d;
-    V low[3];
-    V high[3];
-    for (int axis = 0; axis < 3; ++axis) {
-      const V p = hn::Load(d, block.vertices[0][axis] + lane);
-      const V q = hn::Load(d, block.vertices[1][axis] + lane);
-      const V r = hn::Load(d, block.vertices[2][axis] + lane);
-      low[axis] = hn::Min(p, hn::Min(q, r));
-      high[axis] = hn::Max(p, hn::Max(q, r));
-    }
-    const V padding = hn::Load(d, block.padding + lane);
-    for (int axis = 0; axis < 3; ++axis) {
-      const V inverse = hn::Set(d, ray.inverse[axis]);
-      const V below = hn::Sub(low[axis], padding);
-      const V above = hn::Add(high[axis], padding);
-      const V at_low = hn::Mul(hn::Sub(below, hn::Set(d, ray.plane_origin[0][axis])), inverse);
-      const V at_high = hn::Mul(hn::Sub(above, hn::Set(d, ray.plane_origin[1][axis])), inverse);
-      near = hn::Max(near, hn::Min(at_low, at_high));
-      far = hn::Min(far, hn::Max(at_low, at_high));
-    }
+  const TriangleVec padding = hn::Load(d, block.padding + lane);
+  for (int axis = 0; axis < 3; ++axis) {
+    const TriangleVec inverse = hn::Set(d, ray.inverse[axis]);
+    const TriangleVec below = hn::Sub(low[axis], padding);
+    const TriangleVec above = hn::Add(high[axis], padding);
+    const TriangleVec at_low =
+        hn::Mul(hn::Sub(below, hn::Set(d, ray.plane_origin[0][axis])), inverse);
+    const TriangleVec at_high =
+        hn::Mul(hn::Sub(above, hn::Set(d, ray.plane_origin[1][axis])), inverse);
+    near = hn::Max(near, hn::Min(at_low, at_high));
+    far = hn::Min(far, hn::Max(at_low, at_high));
   }
-};
+}
+
+// Which triangles are hit within the limit, or may be.
+HWY_INLINE std::uint32_t maybe_hit(const PreparedRay& ray, const TriangleBlock& block, float limit,
+                                   BlockHits& found) {
+  const TriangleLanes d;
+  const std::size_t axes[3] = {ray.axes[0] * TriangleBlock::width,
+                               ray.axes[1] * TriangleBlock::width,
+                               ray.axes[2] * TriangleBlock::width};
+  const TriangleVec origin[3] = {hn::Set(d, ray.origin[0]), hn::Set(d, ray.origin[1]),
+                                 hn::Set(d, ray.origin[2])};
+  const TriangleVec shear[2] = {hn::Set(d, ray.shear_x), hn::Set(d, ray.shear_y)};
+  std::uint32_t hits = 0;
+  found.known = 0;
+  for (std::size_t lane = 0; lane < TriangleBlock::width; lane += hn::Lanes(d)) {
+    TriangleVec x[3];
+    TriangleVec y[3];
+    TriangleVec z[3];
+    for (int k = 0; k < 3; ++k) {
+      const float* vertex = block.vertices[k][0] + lane;
+      z[k] = hn::Sub(hn::Load(d, vertex + axes[2]), origin[2]);
+      x[k] = hn::Sub(hn::Sub(hn::Load(d, vertex + axes[0]), origin[0]), hn::Mul(shear[0], z[k]));
+      y[k] = hn::Sub(hn::Sub(hn::Load(d, vertex + axes[1]), origin[1]), hn::Mul(shear[1], z[k]));
+    }
+    const TriangleVec a = hn::Sub(hn::Mul(x[2], y[1]), hn::Mul(y[2], x[1]));
+    const TriangleVec b = hn::Sub(hn::Mul(x[0], y[2]), hn::Mul(y[0], x[2]));
+    const TriangleVec c = hn::Sub(hn::Mul(x[1], y[0]), hn::Mul(y[1], x[0]));
+    const auto mixed = hn::And(hn::Lt(hn::Min(hn::Min(a, b), c), hn::Zero(d)),
+                               hn::Gt(hn::Max(hn::Max(a, b), c), hn::Zero(d)));
+    if (hn::AllTrue(d, mixed)) continue;
+    TriangleVec near = hn::Zero(d);
+    TriangleVec far = hn::Set(d, std::numeric_limits<float>::infinity());
+    narrow(ray, block, lane, near, far);
+    const TriangleVec end = hn::Min(far, hn::Set(d, limit));
+    const auto candidates = hn::AndNot(mixed, hn::Le(near, end));
+    if (hn::AllFalse(d, candidates)) continue;
+
+    const TriangleVec one = hn::Set(d, 1.0F);
+    const TriangleVec determinant = hn::Add(hn::Add(a, b), c);
+    const TriangleVec inverse = hn::Div(one, determinant);
+    const TriangleVec weight_a = hn::Min(hn::Mul(a, inverse), one);
+    const TriangleVec weight_b = hn::Min(hn::Mul(b, inverse), one);
+    const TriangleVec weight_c = hn::Min(hn::Mul(c, inverse), one);
+    const TriangleVec depth =
+        hn::Add(hn::Add(hn::Mul(weight_a, z[0]), hn::Mul(weight_b, z[1])), hn::Mul(weight_c, z[2]));
+    const TriangleVec t = hn::Mul(depth, hn::Set(d, ray.scale_z));
+    const TriangleVec hit_t = hn::Min(hn::Max(t, near), far);
+    // Most rays start next to a triangle that is just behind them: t < 0, if near is 0.
+    const auto meets =
+        hn::And(hn::Gt(hn::Max(t, near), hn::Zero(d)), hn::Le(hit_t, hn::Set(d, limit)));
+    const TriangleVec least = hn::Min(hn::Min(hn::Abs(a), hn::Abs(b)), hn::Abs(c));
+    const TriangleVec size = hn::Abs(determinant);
+    const auto easy = hn::And(hn::Gt(least, hn::Zero(d)),
+                              hn::And(hn::Ge(size, hn::Set(d, detail::least_determinant)),
+                                      hn::Le(size, hn::Set(d, detail::most_determinant))));
+    const std::uint32_t some = bits(d, hn::And(candidates, hn::Or(meets, hn::Not(easy))));
+    if (some == 0) continue;
+    hits |= some << lane;
+    found.known |= bits(d, hn::And(easy, hn::Gt(near, hn::Zero(d)))) << lane;
+    hn::Store(hit_t, d, found.t + lane);
+    hn::Store(weight_b, d, found.u + lane);
+    hn::Store(weight_c, d, found.v + lane);
+  }
+  return hits;
+}
 
 // A child that waits, as a number: those that are nearer are less.
 class Entry {
@@ -233,7 +230,6 @@ template <bool counting>
 HWY_INLINE void closest(const Bvh& bvh, const PreparedRay& ray, Hit& best,
                         TraversalCounts& counts) {
   const NodeRay nodes(ray);
-  const TriangleRay triangles(ray);
   BlockHits found;
   HWY_ALIGN float near[BvhNode::width];
   Entry stack[stack_size];
@@ -285,7 +281,7 @@ HWY_INLINE void closest(const Bvh& bvh, const PreparedRay& ray, Hit& best,
       const TriangleBlock* block = &bvh.blocks[current.first_block()];
       for (std::uint32_t begin = 0; begin < count; begin += TriangleBlock::width, ++block) {
         if (counting) ++counts.blocks;
-        for (std::uint32_t hits = triangles.maybe_hit(*block, best.t, found); hits != 0;
+        for (std::uint32_t hits = maybe_hit(ray, *block, best.t, found); hits != 0;
              hits &= hits - 1) {
           const std::uint32_t lane = lowest_bit(hits);
           TriangleHit hit;
@@ -306,7 +302,6 @@ HWY_INLINE void closest(const Bvh& bvh, const PreparedRay& ray, Hit& best,
 template <bool counting>
 HWY_INLINE bool any(const Bvh& bvh, const PreparedRay& ray, TraversalCounts& counts) {
   const NodeRay nodes(ray);
-  const TriangleRay triangles(ray);
   BlockHits found;
   HWY_ALIGN float near[BvhNode::width];
   std::uint32_t stack[stack_size];
@@ -329,7 +324,7 @@ HWY_INLINE bool any(const Bvh& bvh, const PreparedRay& ray, TraversalCounts& cou
       for (std::uint32_t begin = 0; begin < count; begin += TriangleBlock::width, ++block) {
         if (counting) ++counts.blocks;
         TriangleHit hit;
-        for (std::uint32_t hits = triangles.maybe_hit(*block, ray.t_max, found); hits != 0;
+        for (std::uint32_t hits = maybe_hit(ray, *block, ray.t_max, found); hits != 0;
              hits &= hits - 1) {
           if (found.accept(ray, *block, lowest_bit(hits), ray.t_max, hit)) return true;
         }

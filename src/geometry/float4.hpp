@@ -42,8 +42,5 @@ using Int4 = std::int32_t __attribute__((vector_size(16)));
 [[nodiscard, gnu::always_inline]] inline float largest_of(Float4 a) {
   return std::max(a[0], std::max(a[1], a[2]));
 }
-[[nodiscard, gnu::always_inline]] inline float smallest_of(Float4 a) {
-  return std::min(a[0], std::min(a[1], a[2]));
-}
 
 }  // namespace pah

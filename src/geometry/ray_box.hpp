@@ -90,9 +90,11 @@ inline constexpr float max_origin = 0x1p99F;
 [[nodiscard]] inline float largest_of(const Vec3& v) { return std::max(v.x, std::max(v.y, v.z)); }
 
 // The box of a triangle, or of several, as rays are to meet it. A box inside another stays inside.
-[[nodiscard]] inline Aabb padded(const Aabb& box) {
-  const float padding =
-      triangle_padding * largest_of(glm::max(glm::abs(box.min), glm::abs(box.max)));
+[[nodiscard, gnu::always_inline]] inline float padding_of(const Aabb& box) {
+  return triangle_padding * largest_of(glm::max(glm::abs(box.min), glm::abs(box.max)));
+}
+[[nodiscard, gnu::always_inline]] inline Aabb padded(const Aabb& box) {
+  const float padding = padding_of(box);
   return {box.min - padding, box.max + padding};
 }
 
@@ -156,7 +158,8 @@ struct SlabInterval {
   float far = std::numeric_limits<float>::infinity();
 };
 
-[[nodiscard]] inline SlabInterval intersect_box(const PreparedRay& ray, const Aabb& box) {
+[[nodiscard, gnu::always_inline]] inline SlabInterval intersect_box(const PreparedRay& ray,
+                                                                    const Aabb& box) {
   SlabInterval interval;
   for (int i = 0; i < 3; ++i) {
     const float low = (box.min[i] - ray.plane_origin[0][i]) * ray.inverse[i];

@@ -64,8 +64,6 @@ template <typename Real>
 struct EdgeFunctions {
   Real a, b, c;
 
-  [[gnu::always_inline]] EdgeFunctions(Real of_a, Real of_b, Real of_c)
-      : a(of_a), b(of_b), c(of_c) {}
   [[gnu::always_inline]] EdgeFunctions(const ShearedVertex& p, const ShearedVertex& q,
                                        const ShearedVertex& r)
       : a(cross(r, q)), b(cross(p, r)), c(cross(q, p)) {}
@@ -123,51 +121,6 @@ inline constexpr float most_determinant = 0x1p100F;
   return 3 * error * std::abs(weights.inverse_determinant) * double{z} * double{std::abs(scale_z)};
 }
 
-// The slab interval of a triangle's own padded box. The nearer plane is the one met first: no need
-// to ask for the direction's sign.
-[[nodiscard, gnu::always_inline]] inline SlabInterval own_interval(const PreparedRay& ray, Float4 a,
-                                                                   Float4 b, Float4 c) {
-  const Float4 low = min(a, min(b, c));
-  const Float4 high = max(a, max(b, c));
-  const float padding = triangle_padding * largest_of(max(abs(low), abs(high)));
-  const Float4 at_low = ((low - padding) - ray.plane_origin[0]) * ray.inverse;
-  const Float4 at_high = ((high + padding) - ray.plane_origin[1]) * ray.inverse;
-  return {std::max(0.0F, largest_of(min(at_low, at_high))), smallest_of(max(at_low, at_high))};
-}
-
-// Parts 2 to 4 of the rule, for the few triangles that pass the signs of part 1.
-[[nodiscard, gnu::always_inline]] inline bool accept(const PreparedRay& ray,
-                                                     const SlabInterval& interval,
-                                                     const ShearedVertex& p, const ShearedVertex& q,
-                                                     const ShearedVertex& r,
-                                                     const EdgeFunctions<float>& edge,
-                                                     float t_limit, TriangleHit& hit) {
-  // First, because it is cheap and rejects what is behind the origin or beyond the limit.
-  if (!(interval.near <= std::min(interval.far, t_limit))) return false;
-
-  // Doubles decide zeros, and take over where float would lose digits at the ends of its range.
-  const float determinant = std::abs(edge.a + edge.b + edge.c);
-  const bool easy = edge.a != 0 && edge.b != 0 && edge.c != 0 && determinant >= least_determinant &&
-                    determinant <= most_determinant;
-  Barycentrics weights;
-  if (easy) {
-    weights = barycentrics(edge);
-  } else {
-    const EdgeFunctions<double> exact(p, q, r);
-    if (exact.mixed_signs()) return false;
-    weights = barycentrics(exact);
-  }
-  if (weights.inverse_determinant == 0) return false;
-
-  const float depth = weights.a * p.z + weights.b * q.z + weights.c * r.z;
-  const float t = depth * ray.scale_z;
-  if (!(interval.near > 0 || t > 0)) return false;
-  if (!(interval.near > 0 || double{t} > distance_error(p, q, r, ray.scale_z, weights)))
-    return false;
-  hit = {std::min(std::max(t, interval.near), interval.far), weights.b, weights.c};
-  return hit.t > 0 && hit.t <= t_limit;
-}
-
 }  // namespace detail
 
 // Whether the ray hits the triangle at a t of at most `t_limit`; `hit` holds rubbish if not. The
@@ -180,9 +133,32 @@ inline constexpr float most_determinant = 0x1p100F;
   const detail::ShearedVertex r = detail::shear(ray, triangle.c);
   const detail::EdgeFunctions<float> edge(p, q, r);
   if (edge.mixed_signs()) return false;
-  const SlabInterval interval =
-      detail::own_interval(ray, float4(triangle.a), float4(triangle.b), float4(triangle.c));
-  return detail::accept(ray, interval, p, q, r, edge, t_limit, hit);
+
+  // Next, because it is cheap and rejects what is behind the origin or beyond the limit.
+  const SlabInterval interval = intersect_box(ray, padded(triangle.bounds()));
+  if (!(interval.near <= std::min(interval.far, t_limit))) return false;
+
+  // Doubles decide zeros, and take over where float would lose digits at the ends of its range.
+  const float determinant = std::abs(edge.a + edge.b + edge.c);
+  const bool easy = edge.a != 0 && edge.b != 0 && edge.c != 0 &&
+                    determinant >= detail::least_determinant &&
+                    determinant <= detail::most_determinant;
+  detail::Barycentrics weights;
+  if (easy) {
+    weights = detail::barycentrics(edge);
+  } else {
+    const detail::EdgeFunctions<double> exact(p, q, r);
+    if (exact.mixed_signs()) return false;
+    weights = detail::barycentrics(exact);
+  }
+  if (weights.inverse_determinant == 0) return false;
+
+  const float depth = weights.a * p.z + weights.b * q.z + weights.c * r.z;
+  const float t = depth * ray.scale_z;
+  if (!(interval.near > 0 || double{t} > detail::distance_error(p, q, r, ray.scale_z, weights)))
+    return false;
+  hit = {std::min(std::max(t, interval.near), interval.far), weights.b, weights.c};
+  return hit.t > 0 && hit.t <= t_limit;
 }
 
 // A search starts with no triangle at t_max and ends, if none is found, at infinity.

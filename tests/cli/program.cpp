@@ -46,6 +46,10 @@ std::vector<std::string> files() {
 
 void write_file(const std::string& name, const std::string& text) { std::ofstream(name) << text; }
 
+bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
 std::string read_file(const std::string& name) {
   std::ostringstream text;
   text << std::ifstream(name).rdbuf();

@@ -13,6 +13,7 @@ namespace pah::testing {
 
 void write_file(const std::string& name, const std::string& text);
 [[nodiscard]] std::string read_file(const std::string& name);
+[[nodiscard]] bool contains(const std::string& text, const std::string& part);
 
 struct Outcome {
   int exit_code = -1;  // -1 if a signal ended it

@@ -15,10 +15,6 @@ using Words = std::vector<std::string>;
 
 namespace {
 
-bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
-
 // The program failed: nothing on stdout, no file left behind.
 void check_failure(const Words& arguments, int exit_code, const std::string& message) {
   const auto before = files();

@@ -13,10 +13,6 @@ using Words = std::vector<std::string>;
 
 namespace {
 
-bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
-
 // A floor under a lamp at a height of 2.
 std::string lit_floor(const std::string& lamp, const std::string& more = "") {
   return "film: {width: 16, height: 16}\nrender: {samples: 4, max_depth: 1}\n"

@@ -6,6 +6,8 @@
 #include <pah/render/session.hpp>
 #include <random>
 
+#include "geometry/rounding.hpp"
+
 namespace pah {
 namespace {
 
@@ -44,7 +46,10 @@ class Recorder final : public Accelerator {
   [[nodiscard]] bool all_leave_the_lens(std::span<const Ray> rays) const {
     const auto* camera = std::get_if<PerspectiveCamera>(&world_.camera);
     if (camera == nullptr || camera->aperture_radius == 0) return false;
-    const double reach = 1.001 * camera->aperture_radius;
+    // Origins are sums of three vectors, rounded six times at most each.
+    const double reach =
+        camera->aperture_radius +
+        double{rounding_bound(18)} * (glm::length(camera->position) + camera->aperture_radius);
     return std::ranges::all_of(rays, [&](const Ray& ray) {
       return ray.bundle == no_bundle && glm::distance(DVec3(ray.origin), camera->position) <= reach;
     });
