@@ -309,13 +309,18 @@ ExitCode report_exception() {
 [[noreturn]] void end_without_catch() {
   const std::exception_ptr error = std::current_exception();
   if (!error) std::abort();
+  constexpr int failed = static_cast<int>(ExitCode::failed);
   try {
-    std::rethrow_exception(error);
+    try {
+      std::rethrow_exception(error);
+    } catch (...) {
+      report_exception();
+    }
+    say("There may be too little memory for so many threads; see --threads.\n");
   } catch (...) {
-    report_exception();
+    ::_exit(failed);  // too little for words, even
   }
-  say("There may be too little memory for so many threads; see --threads.\n");
-  ::_exit(static_cast<int>(ExitCode::failed));
+  ::_exit(failed);
 }
 
 }  // namespace
