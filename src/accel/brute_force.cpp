@@ -65,8 +65,8 @@ class BruteForce final : public Accelerator {
   [[nodiscard]] AcceleratorMemory memory() const override { return {}; }
 
  private:
-  // Calls `test(i)` for every triangle whose own padded box the ray meets (part 2 of the shared
-  // rule, taken first because it is cheap for eight at a time), until it returns true.
+  // Calls `test(i)` for every triangle whose own padded box the ray meets (cheap for eight at a
+  // time), until it returns true.
   template <typename Test>
   void visit(const PreparedRay& ray, const Test& test) const {
     for (std::size_t group = 0; group < boxes_.size(); ++group) {
@@ -76,13 +76,11 @@ class BruteForce final : public Accelerator {
       for (std::size_t axis = 0; axis < 3; ++axis) {
         const int k = static_cast<int>(axis);
         const auto& planes = boxes_[group].planes[axis];
-        const std::size_t near_side = ray.negative(k) ? 1 : 0;
+        const std::size_t near_side = std::signbit(ray.inverse[k]) ? 1 : 0;
         const std::size_t far_side = 1 - near_side;
-        const float near_origin = ray.plane_origin[near_side][k];
-        const float far_origin = ray.plane_origin[far_side][k];
         for (std::size_t i = 0; i < BoxGroup::size; ++i) {
-          near[i] = std::max(near[i], (planes[near_side][i] - near_origin) * ray.inverse[k]);
-          far[i] = std::min(far[i], (planes[far_side][i] - far_origin) * ray.inverse[k]);
+          near[i] = std::max(near[i], planes[near_side][i] * ray.inverse[k] + ray.near_offset[k]);
+          far[i] = std::min(far[i], planes[far_side][i] * ray.inverse[k] + ray.far_offset[k]);
         }
       }
       for (std::size_t i = 0; i < BoxGroup::size; ++i) {

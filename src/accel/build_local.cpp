@@ -23,9 +23,9 @@ float magnitude_of(const Aabb& box) {
 // the rounding of the eye to float (u M), of the direction (4 u M), of the offset origin (u M) and
 // of t_max (2 u M).
 constexpr int end_roundings = 8;
-// Adds the padding of origin and box (11 u M, 13 u M and twice 2 u M, ray_box.hpp), the rounding of
-// the interval's ends (6 u M) and that of the widened box (2 u M).
-constexpr int margin_roundings = end_roundings + 36;
+// Adds how far from its triangle a hit may be (30 u of up to 2 M, ray_triangle.hpp), the rounding
+// of t where a ray leaves the region (6 u M) and that of the widened box (2 u M).
+constexpr int margin_roundings = end_roundings + 68;
 
 std::vector<std::uint32_t> triangles_near(const Triangles& triangles, const Region& region,
                                           float magnitude) {

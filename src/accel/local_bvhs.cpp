@@ -1,12 +1,11 @@
 // Who answers which ray.
 //
 // A local BVH holds every triangle whose box, widened by a margin, meets the area's region. The
-// reported t of a hit lies in the ray's slab interval of the triangle's own padded box
-// (ray_triangle.hpp), so the ray's point at t lies in that box but for rounding. Hence every hit at
-// a t up to which the ray stays within the region, or within a fraction of the margin of it, is a
-// hit of the local BVH: up to there its answer, the nearest or none, is the answer. This holds for
-// triangles that are cut by the region, areas that overlap and eyes inside of boxes alike; beyond
-// it the ray is asked of the global BVH again as a whole.
+// ray's point at the reported t of a hit lies within roundings of the triangle (ray_triangle.hpp).
+// Hence every hit at a t up to which the ray stays within the region, or within a fraction of the
+// margin of it, is a hit of the local BVH: up to there its answer, the nearest or none, is the
+// answer. This holds for triangles that are cut by the region, areas that overlap and eyes inside
+// of boxes alike; beyond it the ray is asked of the global BVH again as a whole.
 #include <algorithm>
 #include <atomic>
 #include <bit>

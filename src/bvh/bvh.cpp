@@ -82,7 +82,7 @@ class Collapser {
     std::size_t block = children.first_block;
     for (std::size_t k = 0; k < BvhNode::width; ++k) {
       const bool used = k < children.count;
-      const Aabb box = used ? node_box(tree_.nodes[children.nodes[k]].box) : Aabb{};
+      const Aabb box = used ? tree_.nodes[children.nodes[k]].box : Aabb{};
       for (int axis = 0; axis < 3; ++axis) {
         node.planes[axis][0][k] = box.min[axis];
         node.planes[axis][1][k] = box.max[axis];
@@ -117,7 +117,6 @@ class Collapser {
           block.vertices[2][axis][lane] = triangle.c[axis];
         }
         block.indices[lane] = index;
-        block.padding[lane] = padding_of(triangle.bounds());
       }
     }
   }

@@ -59,7 +59,6 @@ struct alignas(16) TriangleBlock {
   static constexpr std::size_t width = 4;
   float vertices[3][3][width];  // [vertex][axis][triangle]; the last triangle fills a short block
   std::uint32_t indices[width];
-  float padding[width];  // of the triangles' own boxes
 
   [[nodiscard]] Triangle triangle(std::size_t lane) const {
     const auto vertex = [&](std::size_t k) {

@@ -27,7 +27,7 @@ HWY_INLINE std::uint32_t bits(D d, M mask) {
   return bytes[0];
 }
 
-// A ray as nodes are tested with it: by ray_box.hpp's test of nodes, whose rounding is free.
+// A ray as nodes are tested with it (ray_box.hpp).
 struct NodeRay {
   using D = hn::CappedTag<float, BvhNode::width>;
   hn::Vec<D> inverse[3];
@@ -39,11 +39,11 @@ struct NodeRay {
   HWY_INLINE explicit NodeRay(const PreparedRay& ray) {
     const D d;
     for (int axis = 0; axis < 3; ++axis) {
-      inverse[axis] = hn::Set(d, ray.node_inverse[axis]);
+      inverse[axis] = hn::Set(d, ray.inverse[axis]);
       near_offset[axis] = hn::Set(d, ray.near_offset[axis]);
       far_offset[axis] = hn::Set(d, ray.far_offset[axis]);
       const std::size_t planes = 2 * static_cast<std::size_t>(axis) * BvhNode::width;
-      const std::size_t upper = std::bit_cast<std::uint32_t>(ray.node_inverse[axis]) >> 31U;
+      const std::size_t upper = std::bit_cast<std::uint32_t>(ray.inverse[axis]) >> 31U;
       near_planes[axis] = planes + upper * BvhNode::width;
       far_planes[axis] = planes + (1 - upper) * BvhNode::width;
     }
@@ -101,31 +101,14 @@ struct BlockHits {
 using TriangleLanes = hn::CappedTag<float, TriangleBlock::width>;
 using TriangleVec = hn::Vec<TriangleLanes>;
 
-// To the ray's intervals of the triangles' own padded boxes.
-HWY_INLINE void narrow(const PreparedRay& ray, const TriangleBlock& block, std::size_t lane,
-                       TriangleVec& near, TriangleVec& far) {
-  const TriangleLanes d;
-  TriangleVec low[3];
-  TriangleVec high[3];
-  for (int axis = 0; axis < 3; ++axis) {
-    const TriangleVec p = hn::Load(d, block.vertices[0][axis] + lane);
-    const TriangleVec q = hn::Load(d, block.vertices[1][axis] + lane);
-    const TriangleVec r = hn::Load(d, block.vertices[2][axis] + lane);
-    low[axis] = hn::Min(p, hn::Min(q, r));
-    high[axis] = hn::Max(p, hn::Max(q, r));
-  }
-  const TriangleVec padding = hn::Load(d, block.padding + lane);
-  for (int axis = 0; axis < 3; ++axis) {
-    const TriangleVec inverse = hn::Set(d, ray.inverse[axis]);
-    const TriangleVec below = hn::Sub(low[axis], padding);
-    const TriangleVec above = hn::Add(high[axis], padding);
-    const TriangleVec at_low =
-        hn::Mul(hn::Sub(below, hn::Set(d, ray.plane_origin[0][axis])), inverse);
-    const TriangleVec at_high =
-        hn::Mul(hn::Sub(above, hn::Set(d, ray.plane_origin[1][axis])), inverse);
-    near = hn::Max(near, hn::Min(at_low, at_high));
-    far = hn::Min(far, hn::Max(at_low, at_high));
-  }
+HWY_INLINE TriangleVec least(const TriangleVec (&v)[3]) {
+  return hn::Min(hn::Min(v[0], v[1]), v[2]);
+}
+HWY_INLINE TriangleVec largest(const TriangleVec (&v)[3]) {
+  return hn::Max(hn::Max(v[0], v[1]), v[2]);
+}
+HWY_INLINE TriangleVec largest_size(const TriangleVec (&v)[3]) {
+  return hn::Max(hn::Max(hn::Abs(v[0]), hn::Abs(v[1])), hn::Abs(v[2]));
 }
 
 // Which triangles are hit within the limit, or may be.
@@ -150,44 +133,47 @@ HWY_INLINE std::uint32_t maybe_hit(const PreparedRay& ray, const TriangleBlock& 
       x[k] = hn::Sub(hn::Sub(hn::Load(d, vertex + axes[0]), origin[0]), hn::Mul(shear[0], z[k]));
       y[k] = hn::Sub(hn::Sub(hn::Load(d, vertex + axes[1]), origin[1]), hn::Mul(shear[1], z[k]));
     }
-    const TriangleVec a = hn::Sub(hn::Mul(x[2], y[1]), hn::Mul(y[2], x[1]));
-    const TriangleVec b = hn::Sub(hn::Mul(x[0], y[2]), hn::Mul(y[0], x[2]));
-    const TriangleVec c = hn::Sub(hn::Mul(x[1], y[0]), hn::Mul(y[1], x[0]));
-    const auto mixed = hn::And(hn::Lt(hn::Min(hn::Min(a, b), c), hn::Zero(d)),
-                               hn::Gt(hn::Max(hn::Max(a, b), c), hn::Zero(d)));
+    const TriangleVec e[3] = {hn::Sub(hn::Mul(x[2], y[1]), hn::Mul(y[2], x[1])),
+                              hn::Sub(hn::Mul(x[0], y[2]), hn::Mul(y[0], x[2])),
+                              hn::Sub(hn::Mul(x[1], y[0]), hn::Mul(y[1], x[0]))};
+    const auto mixed = hn::And(hn::Lt(least(e), hn::Zero(d)), hn::Gt(largest(e), hn::Zero(d)));
     if (hn::AllTrue(d, mixed)) continue;
-    TriangleVec near = hn::Zero(d);
-    TriangleVec far = hn::Set(d, std::numeric_limits<float>::infinity());
-    narrow(ray, block, lane, near, far);
-    const TriangleVec end = hn::Min(far, hn::Set(d, limit));
-    const auto candidates = hn::AndNot(mixed, hn::Le(near, end));
-    if (hn::AllFalse(d, candidates)) continue;
 
     const TriangleVec one = hn::Set(d, 1.0F);
-    const TriangleVec determinant = hn::Add(hn::Add(a, b), c);
+    const TriangleVec determinant = hn::Add(hn::Add(e[0], e[1]), e[2]);
     const TriangleVec inverse = hn::Div(one, determinant);
-    const TriangleVec weight_a = hn::Min(hn::Mul(a, inverse), one);
-    const TriangleVec weight_b = hn::Min(hn::Mul(b, inverse), one);
-    const TriangleVec weight_c = hn::Min(hn::Mul(c, inverse), one);
-    const TriangleVec depth =
-        hn::Add(hn::Add(hn::Mul(weight_a, z[0]), hn::Mul(weight_b, z[1])), hn::Mul(weight_c, z[2]));
-    const TriangleVec t = hn::Mul(depth, hn::Set(d, ray.scale_z));
-    const TriangleVec hit_t = hn::Min(hn::Max(t, near), far);
-    // Most rays start next to a triangle that is just behind them: t < 0, if near is 0.
-    const auto meets =
-        hn::And(hn::Gt(hn::Max(t, near), hn::Zero(d)), hn::Le(hit_t, hn::Set(d, limit)));
-    const TriangleVec least = hn::Min(hn::Min(hn::Abs(a), hn::Abs(b)), hn::Abs(c));
+    const TriangleVec scale = hn::Set(d, ray.scale_z);
+    TriangleVec depth[3];
+    TriangleVec weight[3];
+    for (int k = 0; k < 3; ++k) {
+      depth[k] = hn::Mul(z[k], scale);
+      weight[k] = hn::Min(hn::Mul(e[k], inverse), one);
+    }
+    const TriangleVec t =
+        hn::Add(hn::Add(hn::Mul(weight[0], depth[0]), hn::Mul(weight[1], depth[1])),
+                hn::Mul(weight[2], depth[2]));
+    const TriangleVec nearest = least(depth);
+    const TriangleVec farthest = largest(depth);
     const TriangleVec size = hn::Abs(determinant);
-    const auto easy = hn::And(hn::Gt(least, hn::Zero(d)),
-                              hn::And(hn::Ge(size, hn::Set(d, detail::least_determinant)),
-                                      hn::Le(size, hn::Set(d, detail::most_determinant))));
-    const std::uint32_t some = bits(d, hn::And(candidates, hn::Or(meets, hn::Not(easy))));
+    const TriangleVec error =
+        hn::Mul(hn::Mul(hn::Mul(largest_size(x), hn::Abs(inverse)), largest_size(y)),
+                hn::Sub(farthest, nearest));
+    const TriangleVec most_depth = hn::Max(hn::Abs(nearest), hn::Abs(farthest));
+    const auto in_range = hn::And(hn::Ge(size, hn::Set(d, detail::least_determinant)),
+                                  hn::Le(size, hn::Set(d, detail::most_determinant)));
+    const auto without_zero = hn::Ne(hn::Mul(hn::Mul(e[0], e[1]), e[2]), hn::Zero(d));
+    const auto well_conditioned =
+        hn::And(hn::And(in_range, without_zero), hn::Le(error, hn::Add(most_depth, most_depth)));
+    // Most rays start next to a triangle that is just behind them.
+    const auto meets = hn::And(hn::Gt(t, hn::Zero(d)), hn::Le(t, hn::Set(d, limit)));
+    const auto candidates = hn::AndNot(mixed, hn::Or(meets, hn::Not(well_conditioned)));
+    const std::uint32_t some = bits(d, candidates);
     if (some == 0) continue;
     hits |= some << lane;
-    found.known |= bits(d, hn::And(easy, hn::Gt(near, hn::Zero(d)))) << lane;
-    hn::Store(hit_t, d, found.t + lane);
-    hn::Store(weight_b, d, found.u + lane);
-    hn::Store(weight_c, d, found.v + lane);
+    found.known |= bits(d, hn::And(well_conditioned, hn::Gt(nearest, hn::Zero(d)))) << lane;
+    hn::Store(t, d, found.t + lane);
+    hn::Store(weight[1], d, found.u + lane);
+    hn::Store(weight[2], d, found.v + lane);
   }
   return hits;
 }

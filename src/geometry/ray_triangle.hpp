@@ -3,31 +3,37 @@
 // The rule. A ray hits a triangle if and only if
 //   1. the watertight test of Woop, Benthin and Wald ("Watertight Ray/Triangle Intersection", JCGT
 //      2013) accepts: the ray's line meets the triangle, edges and vertices included, both faces;
-//   2. the ray's slab interval [near, far] of the triangle's OWN padded box (ray_box.hpp) is not
-//      empty;
-//   3. the hit is in front of the origin beyond doubt: either the whole interval is (near > 0) or t
-//      exceeds its error bound (pbrt-v4, 6.8.5 "Robust Triangle Intersections");
-//   4. t, clamped to [near, far], is at most t_max.
+//   2. the hit is in front of the origin beyond doubt: either all three vertices are, or t exceeds
+//      its error bound (pbrt-v4, 6.8.5 "Robust Triangle Intersections");
+//   3. t is at most t_max.
 // Among hits the least (t, triangle index) wins.
 //
-// Why no acceleration changes an answer. The rule depends on the ray and the triangle only. A box
-// of a tree contains its triangles' padded boxes exactly, and a node's test is no narrower than
-// the triangle's (ray_box.hpp); so a node's interval contains the interval of each triangle below
-// it, in which the reported t lies: near(node) <= t <= far(node). A traversal that skips a node
-// only if its interval is empty or near(node) > t of a hit already found can therefore not skip the
-// winner, whatever the tree and the order.
+// Why no acceleration changes an answer. The rule depends on the ray and the triangle only, and its
+// t lies in the interval of every box around the triangle or around the part of it that is hit
+// (ray_box.hpp). A traversal that skips a node only if its interval is empty or near(node) > t of a
+// hit already found can therefore not skip the winner, whatever the tree and the order.
 //
-// Why the box takes no hit away. Edge functions have the exact sign for the sheared, rounded
-// vertices: rounding is monotone, so a float difference of float products errs in sign only by
-// being zero, and then doubles decide (products of floats are exact in double). The line thus meets
-// a triangle whose vertices are off by a rounding: with u the unit roundoff, |V - O| <= M and
-// |shear| <= 1, x - shear * z is off by u M (x) + 4 u M (shear * z: shear is a product with a
-// reciprocal) + 2 u M (difference) = 7 u M.
-// The padding of ray_box.hpp is larger than that. Two triangles with a shared edge compute its edge
-// function with opposite signs and the same digits, hence no crack.
+// Why origin + t d lies within 30 u M of a point of the triangle (u the unit roundoff, M the
+// largest distance along an axis from the origin O to a vertex V). The test sees vertices that are
+// off by roundings: with |shear| <= 1, x - shear * z is off by u M (x) + 4 u M (shear * z: shear is
+// a product with a reciprocal) + 2 u M (difference) = 7 u M. Of these vertices the edge functions
+// have the exact sign: rounding is monotone, so a float difference of float products errs in sign
+// only by being zero, and then doubles decide (products of floats are exact in double). So the line
+// meets the triangle of the rounded vertices, at weights that make a point of the true triangle, 7
+// u M away at most. Their sum of depths is t: weighted depths have 9 roundings at most (two of the
+// depth, sum of edge functions, inverse, product, product, sum), which is 9 u Z, Z being the
+// largest depth. What is left is the error of the edge functions. In double they have all digits.
+// In float each is off by 2 u X Y and u of itself at most, X and Y being the largest |x| and |y|.
+// As t = sum of e z / sum of e, that moves t by 6 u X Y R / |determinant| + u R, R being the range
+// of depths. Where X Y R > 2 Z |determinant|, doubles take over; else that is 12 u Z + 2 u Z.
+// Together: 7 u M + 23 u M.
+//
+// Two triangles with a shared edge compute its edge function with opposite signs and the same
+// digits, hence no crack.
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <pah/geometry/triangles.hpp>
 
 #include "geometry/ray_box.hpp"
@@ -45,9 +51,10 @@ struct TriangleHit {
 
 namespace detail {
 
-// A vertex as the ray sees it: the ray is the z axis, z is not yet in units of t.
+// A vertex as the ray sees it: the ray is the z axis.
 struct ShearedVertex {
   float x, y, z;
+  float t;  // z in units of the direction
 };
 
 [[nodiscard, gnu::always_inline]] inline ShearedVertex shear(const PreparedRay& ray,
@@ -56,7 +63,7 @@ struct ShearedVertex {
   const auto [x, y, z] = ray.axes;
   const float depth = along[z] - ray.origin[2];
   return {(along[x] - ray.origin[0]) - ray.shear_x * depth,
-          (along[y] - ray.origin[1]) - ray.shear_y * depth, depth};
+          (along[y] - ray.origin[1]) - ray.shear_y * depth, depth, depth * ray.scale_z};
 }
 
 // Twice the areas that the origin spans with the edges opposite to a, b and c.
@@ -97,9 +104,33 @@ template <typename Real>
           double{std::max(std::abs(edge.a), std::max(std::abs(edge.b), std::abs(edge.c)))}};
 }
 
-// Where float loses no digits.
+// Where float loses no digits to its range.
 inline constexpr float least_determinant = 0x1p-100F;
 inline constexpr float most_determinant = 0x1p100F;
+
+[[nodiscard, gnu::always_inline]] inline float least(float a, float b, float c) {
+  return std::min(a, std::min(b, c));
+}
+[[nodiscard, gnu::always_inline]] inline float largest(float a, float b, float c) {
+  return std::max(a, std::max(b, c));
+}
+
+// Whether float has the digits that t needs: see the top of this file.
+[[nodiscard, gnu::always_inline]] inline bool well_conditioned(const ShearedVertex& p,
+                                                               const ShearedVertex& q,
+                                                               const ShearedVertex& r,
+                                                               const EdgeFunctions<float>& edge) {
+  if (edge.a == 0 || edge.b == 0 || edge.c == 0) return false;
+  const float determinant = edge.a + edge.b + edge.c;
+  const float size = std::abs(determinant);
+  if (!(size >= least_determinant && size <= most_determinant)) return false;
+  const float x = largest(std::abs(p.x), std::abs(q.x), std::abs(r.x));
+  const float y = largest(std::abs(p.y), std::abs(q.y), std::abs(r.y));
+  const float nearest = least(p.t, q.t, r.t);
+  const float farthest = largest(p.t, q.t, r.t);
+  const float depth = std::max(std::abs(nearest), std::abs(farthest));
+  return x * (1 / size) * y * (farthest - nearest) <= 2 * depth;
+}
 
 // How far t can be from the truth, at most (pbrt-v4, 6.8.5): what decides its sign.
 [[nodiscard, gnu::always_inline]] inline double distance_error(const ShearedVertex& p,
@@ -107,12 +138,9 @@ inline constexpr float most_determinant = 0x1p100F;
                                                                const ShearedVertex& r,
                                                                float scale_z,
                                                                const Barycentrics& weights) {
-  const auto largest = [](float a, float b, float c) __attribute__((always_inline)) {
-    return std::max(std::abs(a), std::max(std::abs(b), std::abs(c)));
-  };
-  const float z = largest(p.z, q.z, r.z);
-  const float x = largest(p.x, q.x, r.x);
-  const float y = largest(p.y, q.y, r.y);
+  const float z = largest(std::abs(p.z), std::abs(q.z), std::abs(r.z));
+  const float x = largest(std::abs(p.x), std::abs(q.x), std::abs(r.x));
+  const float y = largest(std::abs(p.y), std::abs(q.y), std::abs(r.y));
   const float error_x = rounding_bound(5) * (x + z);
   const float error_y = rounding_bound(5) * (y + z);
   const float error_edge = 2 * (rounding_bound(2) * x * y + error_y * x + error_x * y);
@@ -134,17 +162,8 @@ inline constexpr float most_determinant = 0x1p100F;
   const detail::EdgeFunctions<float> edge(p, q, r);
   if (edge.mixed_signs()) return false;
 
-  // Next, because it is cheap and rejects what is behind the origin or beyond the limit.
-  const SlabInterval interval = intersect_box(ray, padded(triangle.bounds()));
-  if (!(interval.near <= std::min(interval.far, t_limit))) return false;
-
-  // Doubles decide zeros, and take over where float would lose digits at the ends of its range.
-  const float determinant = std::abs(edge.a + edge.b + edge.c);
-  const bool easy = edge.a != 0 && edge.b != 0 && edge.c != 0 &&
-                    determinant >= detail::least_determinant &&
-                    determinant <= detail::most_determinant;
   detail::Barycentrics weights;
-  if (easy) {
+  if (detail::well_conditioned(p, q, r, edge)) {
     weights = detail::barycentrics(edge);
   } else {
     const detail::EdgeFunctions<double> exact(p, q, r);
@@ -153,12 +172,11 @@ inline constexpr float most_determinant = 0x1p100F;
   }
   if (weights.inverse_determinant == 0) return false;
 
-  const float depth = weights.a * p.z + weights.b * q.z + weights.c * r.z;
-  const float t = depth * ray.scale_z;
-  if (!(interval.near > 0 || double{t} > detail::distance_error(p, q, r, ray.scale_z, weights)))
-    return false;
-  hit = {std::min(std::max(t, interval.near), interval.far), weights.b, weights.c};
-  return hit.t > 0 && hit.t <= t_limit;
+  const float t = weights.a * p.t + weights.b * q.t + weights.c * r.t;
+  if (!(t > 0 && t <= t_limit)) return false;
+  hit = {t, weights.b, weights.c};
+  return detail::least(p.t, q.t, r.t) > 0 ||
+         double{t} > detail::distance_error(p, q, r, ray.scale_z, weights);
 }
 
 // A search starts with no triangle at t_max and ends, if none is found, at infinity.

@@ -32,10 +32,10 @@ struct Reachable {
   explicit Reachable(const Aabb& bounds) : box(bounds) {
     if (bounds.empty()) return;
     const Vec3 largest = glm::max(glm::abs(bounds.min), glm::abs(bounds.max));
-    // A ray starts within 15 roundings of a surface (spawn.hpp), and the test of a box is padded by
-    // 13 (ray_box.hpp), of sizes of up to twice the largest coordinate.
+    // A ray starts within 15 roundings of a surface (spawn.hpp), and a hit lies within 30 of
+    // its triangle (ray_triangle.hpp), of sizes of up to twice the largest coordinate.
     const float widening =
-        rounding_bound(2 * (15 + 13)) * std::max(largest.x, std::max(largest.y, largest.z));
+        rounding_bound(2 * (15 + 30)) * std::max(largest.x, std::max(largest.y, largest.z));
     box.min -= widening;
     box.max += widening;
     margin = widening;

@@ -114,14 +114,12 @@ void count_leaks(std::uint32_t rays_per_mesh) {
   }
 }
 
-// Where a hit is, in double, and how far outside the triangle's box that may be: by the padding of
-// box and origin (15 u A and 13 u O, ray_box.hpp) and the rounding of the interval's ends (4 u of
-// both together).
+// Where a hit is, in double, and how far outside the triangle's box that may be: 30 roundings of
+// the distance to its vertices (ray_triangle.hpp).
 bool inside_box(const Ray& ray, const Triangle& triangle, const TriangleHit& hit) {
   const Aabb box = triangle.bounds();
-  const float reach = largest_of(glm::max(glm::abs(box.min), glm::abs(box.max)));
-  const double bound = 19 * double{unit_roundoff} * double{reach} +
-                       17 * double{unit_roundoff} * double{largest_of(glm::abs(ray.origin))};
+  const Vec3 reach = glm::max(glm::abs(box.min - ray.origin), glm::abs(box.max - ray.origin));
+  const double bound = double{rounding_bound(31)} * double{largest_of(reach)};
   for (int i = 0; i < 3; ++i) {
     const double x = double{ray.origin[i]} + double{hit.t} * double{ray.direction[i]};
     if (x < double{box.min[i]} - bound || x > double{box.max[i]} + bound) return false;
