@@ -35,7 +35,7 @@ class BruteForce final : public Accelerator {
                    TraversalCounts* counts) const override {
     for (std::size_t k = 0; k < rays.size(); ++k) {
       const PreparedRay ray = prepare(rays[k]);
-      Hit best = nothing_yet(ray);
+      Hit best = nothing_yet(ray.t_max);
       visit(ray, [&](std::size_t i) {
         update_nearest(ray, triangles_[i], static_cast<std::uint32_t>(i), best);
         return false;

@@ -27,6 +27,14 @@ HWY_INLINE std::uint32_t bits(D d, M mask) {
   return bytes[0];
 }
 
+// A ray where it was prepared, beside three others.
+struct OneOfFour {
+  const Prepared<Float4>& four;
+  std::size_t k;
+
+  [[nodiscard]] float t_max() const { return four.t_max[k]; }
+};
+
 // A ray as nodes are tested with it (ray_box.hpp).
 struct NodeRay {
   using D = hn::CappedTag<float, BvhNode::width>;
@@ -36,14 +44,14 @@ struct NodeRay {
   std::size_t near_planes[3];  // where in a node, in floats
   std::size_t far_planes[3];
 
-  HWY_INLINE explicit NodeRay(const PreparedRay& ray) {
+  HWY_INLINE explicit NodeRay(const OneOfFour& ray) {
     const D d;
     for (int axis = 0; axis < 3; ++axis) {
-      inverse[axis] = hn::Set(d, ray.inverse[axis]);
-      near_offset[axis] = hn::Set(d, ray.near_offset[axis]);
-      far_offset[axis] = hn::Set(d, ray.far_offset[axis]);
+      inverse[axis] = hn::Set(d, ray.four.inverse[axis][ray.k]);
+      near_offset[axis] = hn::Set(d, ray.four.near_offset[axis][ray.k]);
+      far_offset[axis] = hn::Set(d, ray.four.far_offset[axis][ray.k]);
       const std::size_t planes = 2 * static_cast<std::size_t>(axis) * BvhNode::width;
-      const std::size_t upper = std::bit_cast<std::uint32_t>(ray.inverse[axis]) >> 31U;
+      const std::size_t upper = std::bit_cast<std::uint32_t>(ray.four.inverse[axis][ray.k]) >> 31U;
       near_planes[axis] = planes + upper * BvhNode::width;
       far_planes[axis] = planes + (1 - upper) * BvhNode::width;
     }
@@ -77,9 +85,9 @@ struct NodeRay {
 
 // The shared rule as it stands, for what the block's test leaves to it. Seldom called: kept out of
 // the loops, whose registers it would take.
-HWY_NOINLINE bool decide(const PreparedRay& ray, const TriangleBlock& block, std::size_t lane,
+HWY_NOINLINE bool decide(const OneOfFour& ray, const TriangleBlock& block, std::size_t lane,
                          float limit, TriangleHit& hit) {
-  return intersect_triangle(ray, block.triangle(lane), limit, hit);
+  return intersect_triangle(extracted(ray.four, ray.k), block.triangle(lane), limit, hit);
 }
 
 // What is found of triangles side by side.
@@ -89,7 +97,7 @@ struct BlockHits {
   HWY_ALIGN float v[TriangleBlock::width];
   std::uint32_t known = 0;  // bit i: triangle i is hit at t; else the rule is to be asked
 
-  HWY_INLINE bool accept(const PreparedRay& ray, const TriangleBlock& block, std::size_t lane,
+  HWY_INLINE bool accept(const OneOfFour& ray, const TriangleBlock& block, std::size_t lane,
                          float limit, TriangleHit& hit) const {
     if ((known >> lane & 1U) == 0) return decide(ray, block, lane, limit, hit);
     hit = {t[lane], u[lane], v[lane]};
@@ -112,15 +120,18 @@ HWY_INLINE TriangleVec largest_size(const TriangleVec (&v)[3]) {
 }
 
 // Which triangles are hit within the limit, or may be.
-HWY_INLINE std::uint32_t maybe_hit(const PreparedRay& ray, const TriangleBlock& block, float limit,
+HWY_INLINE std::uint32_t maybe_hit(const OneOfFour& ray, const TriangleBlock& block, float limit,
                                    BlockHits& found) {
   const TriangleLanes d;
-  const std::size_t axes[3] = {ray.axes[0] * TriangleBlock::width,
-                               ray.axes[1] * TriangleBlock::width,
-                               ray.axes[2] * TriangleBlock::width};
-  const TriangleVec origin[3] = {hn::Set(d, ray.origin[0]), hn::Set(d, ray.origin[1]),
-                                 hn::Set(d, ray.origin[2])};
-  const TriangleVec shear[2] = {hn::Set(d, ray.shear_x), hn::Set(d, ray.shear_y)};
+  const auto& [four, i] = ray;
+  const auto z_axis = static_cast<std::size_t>(four.z_axis[i]);
+  const std::size_t x_axis = next_axis[z_axis];
+  const std::size_t axes[3] = {x_axis * TriangleBlock::width,
+                               next_axis[x_axis] * TriangleBlock::width,
+                               z_axis * TriangleBlock::width};
+  const TriangleVec origin[3] = {hn::Set(d, four.origin[0][i]), hn::Set(d, four.origin[1][i]),
+                                 hn::Set(d, four.origin[2][i])};
+  const TriangleVec shear[2] = {hn::Set(d, four.shear_x[i]), hn::Set(d, four.shear_y[i])};
   std::uint32_t hits = 0;
   found.known = 0;
   for (std::size_t lane = 0; lane < TriangleBlock::width; lane += hn::Lanes(d)) {
@@ -142,7 +153,7 @@ HWY_INLINE std::uint32_t maybe_hit(const PreparedRay& ray, const TriangleBlock& 
     const TriangleVec one = hn::Set(d, 1.0F);
     const TriangleVec determinant = hn::Add(hn::Add(e[0], e[1]), e[2]);
     const TriangleVec inverse = hn::Div(one, determinant);
-    const TriangleVec scale = hn::Set(d, ray.scale_z);
+    const TriangleVec scale = hn::Set(d, four.scale_z[i]);
     TriangleVec depth[3];
     TriangleVec weight[3];
     for (int k = 0; k < 3; ++k) {
@@ -213,8 +224,7 @@ HWY_INLINE std::uint32_t lowest_bit(std::uint32_t mask) {
 }
 
 template <bool counting>
-HWY_INLINE void closest(const Bvh& bvh, const PreparedRay& ray, Hit& best,
-                        TraversalCounts& counts) {
+HWY_INLINE void closest(const Bvh& bvh, const OneOfFour& ray, Hit& best, TraversalCounts& counts) {
   const NodeRay nodes(ray);
   BlockHits found;
   HWY_ALIGN float near[BvhNode::width];
@@ -286,7 +296,7 @@ HWY_INLINE void closest(const Bvh& bvh, const PreparedRay& ray, Hit& best,
 }
 
 template <bool counting>
-HWY_INLINE bool any(const Bvh& bvh, const PreparedRay& ray, TraversalCounts& counts) {
+HWY_INLINE bool any(const Bvh& bvh, const OneOfFour& ray, TraversalCounts& counts) {
   const NodeRay nodes(ray);
   BlockHits found;
   HWY_ALIGN float near[BvhNode::width];
@@ -297,7 +307,8 @@ HWY_INLINE bool any(const Bvh& bvh, const PreparedRay& ray, TraversalCounts& cou
     const BvhNode& node = bvh.nodes[*--top];
     if (counting) ++counts.nodes;
     if (counting) ++counts.inner_nodes;
-    for (std::uint32_t met = nodes.meet_children(node, ray.t_max, near); met != 0; met &= met - 1) {
+    for (std::uint32_t met = nodes.meet_children(node, ray.t_max(), near); met != 0;
+         met &= met - 1) {
       const ChildRef child = node.children[lowest_bit(met)];
       if (!child.is_leaf()) {
         *top++ = child.node();
@@ -310,9 +321,9 @@ HWY_INLINE bool any(const Bvh& bvh, const PreparedRay& ray, TraversalCounts& cou
       for (std::uint32_t begin = 0; begin < count; begin += TriangleBlock::width, ++block) {
         if (counting) ++counts.blocks;
         TriangleHit hit;
-        for (std::uint32_t hits = maybe_hit(ray, *block, ray.t_max, found); hits != 0;
+        for (std::uint32_t hits = maybe_hit(ray, *block, ray.t_max(), found); hits != 0;
              hits &= hits - 1) {
-          if (found.accept(ray, *block, lowest_bit(hits), ray.t_max, hit)) return true;
+          if (found.accept(ray, *block, lowest_bit(hits), ray.t_max(), hit)) return true;
         }
       }
     }
@@ -320,24 +331,27 @@ HWY_INLINE bool any(const Bvh& bvh, const PreparedRay& ray, TraversalCounts& cou
   return false;
 }
 
-// Calls `trace(prepared ray, i)` for every ray. They are prepared some at a time, all divisions of
-// which overlap.
+// Calls `trace(ray, i)` for every ray. They are prepared some at a time, all divisions of which
+// overlap.
 template <class Trace>
 HWY_INLINE void for_each_prepared(std::span<const Ray> rays, const Trace& trace) {
   constexpr std::size_t at_a_time = 16;
-  PreparedRay prepared[at_a_time];
+  Prepared<Float4> prepared[at_a_time / 4];
   for (std::size_t first = 0; first < rays.size(); first += at_a_time) {
     const std::size_t count = std::min(at_a_time, rays.size() - first);
-    for (std::size_t i = 0; i < count; ++i) prepared[i] = prepare(rays[first + i]);
-    for (std::size_t i = 0; i < count; ++i) trace(prepared[i], first + i);
+    const auto ray = [&](std::size_t i)
+                         HWY_ATTR -> const Ray& { return rays[first + std::min(i, count - 1)]; };
+    for (std::size_t i = 0; i < count; i += 4)
+      prepared[i / 4] = prepare(ray(i), ray(i + 1), ray(i + 2), ray(i + 3));
+    for (std::size_t i = 0; i < count; ++i) trace(OneOfFour{prepared[i / 4], i % 4}, first + i);
   }
 }
 
 template <bool counting>
 void closest_batch(const Bvh& bvh, std::span<const Ray> rays, std::span<Hit> hits,
                    TraversalCounts& counts) {
-  for_each_prepared(rays, [&](const PreparedRay& ray, std::size_t i) HWY_ATTR {
-    Hit best = nothing_yet(ray);
+  for_each_prepared(rays, [&](const OneOfFour& ray, std::size_t i) HWY_ATTR {
+    Hit best = nothing_yet(ray.t_max());
     closest<counting>(bvh, ray, best, counts);
     hits[i] = finished(best);
   });
@@ -346,7 +360,7 @@ void closest_batch(const Bvh& bvh, std::span<const Ray> rays, std::span<Hit> hit
 template <bool counting>
 void any_batch(const Bvh& bvh, std::span<const Ray> rays, std::span<std::uint8_t> results,
                TraversalCounts& counts) {
-  for_each_prepared(rays, [&](const PreparedRay& ray, std::size_t i)
+  for_each_prepared(rays, [&](const OneOfFour& ray, std::size_t i)
                               HWY_ATTR { results[i] = any<counting>(bvh, ray, counts) ? 1 : 0; });
 }
 

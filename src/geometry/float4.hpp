@@ -1,6 +1,6 @@
-// Four floats side by side: x, y and z of one ray or triangle, and one that is for nothing. In the
-// vector types of GCC and Clang: every machine has four lanes, so that nothing is to be chosen at
-// run time, and every operation rounds as that of a float does.
+// Four floats side by side: x, y and z of a triangle and one that is for nothing, or one of four
+// rays each. In the vector types of GCC and Clang: every machine has four lanes, so that nothing is
+// to be chosen at run time, and every operation rounds as that of a float does.
 #pragma once
 
 #include <algorithm>
@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <cstring>
 #include <pah/geometry/vec.hpp>
+#include <type_traits>
 
 namespace pah {
 
@@ -26,16 +27,43 @@ using Int4 = std::int32_t __attribute__((vector_size(16)));
   return loaded;
 }
 
-[[nodiscard, gnu::always_inline]] inline Float4 min(Float4 a, Float4 b) { return a < b ? a : b; }
-[[nodiscard, gnu::always_inline]] inline Float4 max(Float4 a, Float4 b) { return a > b ? a : b; }
+// The integer beside a float, or four beside four.
+template <typename Real>
+using IntOf = std::conditional_t<std::is_same_v<Real, Float4>, Int4, std::int32_t>;
 
-[[nodiscard, gnu::always_inline]] inline Float4 abs(Float4 a) {
-  return std::bit_cast<Float4>(std::bit_cast<Int4>(a) & 0x7FFFFFFF);
+// Of floats and of Float4.
+template <typename Real>
+[[nodiscard, gnu::always_inline]] inline Real min(const Real& a, const Real& b) {
+  return a < b ? a : b;
+}
+template <typename Real>
+[[nodiscard, gnu::always_inline]] inline Real max(const Real& a, const Real& b) {
+  return a > b ? a : b;
+}
+template <typename Real>
+[[nodiscard, gnu::always_inline]] inline Real abs(const Real& a) {
+  return std::bit_cast<Real>(std::bit_cast<IntOf<Real>>(a) & 0x7FFFFFFF);
 }
 // `size` is not negative.
-[[nodiscard, gnu::always_inline]] inline Float4 with_sign_of(Float4 size, Float4 sign) {
-  return std::bit_cast<Float4>(std::bit_cast<Int4>(size) |
-                               (std::bit_cast<Int4>(sign) & std::int32_t{-0x7FFFFFFF - 1}));
+template <typename Real>
+[[nodiscard, gnu::always_inline]] inline Real with_sign_of(const Real& size, const Real& sign) {
+  return std::bit_cast<Real>(std::bit_cast<IntOf<Real>>(size) |
+                             (std::bit_cast<IntOf<Real>>(sign) & std::int32_t{-0x7FFFFFFF - 1}));
+}
+
+struct Transposed {
+  Float4 x, y, z, w;
+};
+[[nodiscard, gnu::always_inline]] inline Transposed transposed(Float4 a, Float4 b, Float4 c,
+                                                               Float4 d) {
+  const Float4 xy_ab = __builtin_shufflevector(a, b, 0, 4, 1, 5);
+  const Float4 zw_ab = __builtin_shufflevector(a, b, 2, 6, 3, 7);
+  const Float4 xy_cd = __builtin_shufflevector(c, d, 0, 4, 1, 5);
+  const Float4 zw_cd = __builtin_shufflevector(c, d, 2, 6, 3, 7);
+  return {__builtin_shufflevector(xy_ab, xy_cd, 0, 1, 4, 5),
+          __builtin_shufflevector(xy_ab, xy_cd, 2, 3, 6, 7),
+          __builtin_shufflevector(zw_ab, zw_cd, 0, 1, 4, 5),
+          __builtin_shufflevector(zw_ab, zw_cd, 2, 3, 6, 7)};
 }
 
 // Of x, y and z.

@@ -60,7 +60,9 @@ struct ShearedVertex {
 [[nodiscard, gnu::always_inline]] inline ShearedVertex shear(const PreparedRay& ray,
                                                              const Vec3& vertex) {
   const float* const along = &vertex.x;
-  const auto [x, y, z] = ray.axes;
+  const auto z = static_cast<std::size_t>(ray.z_axis);
+  const std::size_t x = next_axis[z];
+  const std::size_t y = next_axis[x];
   const float depth = along[z] - ray.origin[2];
   return {(along[x] - ray.origin[0]) - ray.shear_x * depth,
           (along[y] - ray.origin[1]) - ray.shear_y * depth, depth, depth * ray.scale_z};
@@ -180,9 +182,9 @@ inline constexpr float most_determinant = 0x1p100F;
 }
 
 // A search starts with no triangle at t_max and ends, if none is found, at infinity.
-[[nodiscard, gnu::always_inline]] inline Hit nothing_yet(const PreparedRay& ray) {
+[[nodiscard, gnu::always_inline]] inline Hit nothing_yet(float t_max) {
   Hit hit;
-  hit.t = ray.t_max;
+  hit.t = t_max;
   return hit;
 }
 [[nodiscard, gnu::always_inline]] inline Hit finished(const Hit& hit) {
