@@ -165,11 +165,13 @@ HWY_INLINE std::uint32_t maybe_hit(const OneOfFour& ray, const TriangleBlock& bl
                 hn::Mul(weight[2], depth[2]));
     const TriangleVec nearest = least(depth);
     const TriangleVec farthest = largest(depth);
-    const TriangleVec size = hn::Abs(determinant);
-    const TriangleVec error =
-        hn::Mul(hn::Mul(hn::Mul(largest_size(x), hn::Abs(inverse)), largest_size(y)),
-                hn::Sub(farthest, nearest));
     const TriangleVec most_depth = hn::Max(hn::Abs(nearest), hn::Abs(farthest));
+    const TriangleVec most_x = largest_size(x);
+    const TriangleVec most_y = largest_size(y);
+    const TriangleVec size = hn::Abs(determinant);
+    const TriangleVec inverse_size = hn::Abs(inverse);
+    const TriangleVec error =
+        hn::Mul(hn::Mul(hn::Mul(most_x, inverse_size), most_y), hn::Sub(farthest, nearest));
     const auto in_range = hn::And(hn::Ge(size, hn::Set(d, detail::least_determinant)),
                                   hn::Le(size, hn::Set(d, detail::most_determinant)));
     const auto without_zero = hn::Ne(hn::Mul(hn::Mul(e[0], e[1]), e[2]), hn::Zero(d));
@@ -177,11 +179,26 @@ HWY_INLINE std::uint32_t maybe_hit(const OneOfFour& ray, const TriangleBlock& bl
         hn::And(hn::And(in_range, without_zero), hn::Le(error, hn::Add(most_depth, most_depth)));
     // Most rays start next to a triangle that is just behind them.
     const auto meets = hn::And(hn::Gt(t, hn::Zero(d)), hn::Le(t, hn::Set(d, limit)));
-    const auto candidates = hn::AndNot(mixed, hn::Or(meets, hn::Not(well_conditioned)));
-    const std::uint32_t some = bits(d, candidates);
-    if (some == 0) continue;
-    hits |= some << lane;
-    found.known |= bits(d, hn::And(well_conditioned, hn::Gt(nearest, hn::Zero(d)))) << lane;
+    auto candidates = hn::AndNot(mixed, hn::Or(meets, hn::Not(well_conditioned)));
+    if (hn::AllFalse(d, candidates)) continue;
+
+    const auto beside = hn::And(well_conditioned, hn::Le(nearest, hn::Zero(d)));
+    if (!hn::AllFalse(d, hn::And(candidates, beside))) {
+      const TriangleVec bound = hn::Set(d, rounding_bound(5));
+      const TriangleVec most_z = largest_size(z);
+      const TriangleVec error_x = hn::Mul(bound, hn::Add(most_x, most_z));
+      const TriangleVec error_y = hn::Mul(bound, hn::Add(most_y, most_z));
+      const TriangleVec product = hn::Mul(hn::Mul(hn::Set(d, rounding_bound(2)), most_x), most_y);
+      const TriangleVec half_error_edge =
+          hn::Add(product, hn::Add(hn::Mul(error_y, most_x), hn::Mul(error_x, most_y)));
+      const TriangleVec error_t = hn::Add(hn::Mul(hn::Set(d, rounding_bound(12)), largest_size(e)),
+                                          hn::Mul(hn::Set(d, 2.0F), half_error_edge));
+      const TriangleVec distance_error =
+          hn::Mul(hn::Mul(hn::Mul(hn::Set(d, 3.0F), error_t), inverse_size), most_depth);
+      candidates = hn::AndNot(hn::And(beside, hn::Le(t, distance_error)), candidates);
+    }
+    hits |= bits(d, candidates) << lane;
+    found.known |= bits(d, well_conditioned) << lane;
     hn::Store(t, d, found.t + lane);
     hn::Store(weight[1], d, found.u + lane);
     hn::Store(weight[2], d, found.v + lane);

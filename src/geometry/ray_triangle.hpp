@@ -80,6 +80,7 @@ struct EdgeFunctions {
   [[nodiscard, gnu::always_inline]] bool mixed_signs() const {
     return (a < 0 || b < 0 || c < 0) && (a > 0 || b > 0 || c > 0);
   }
+  [[nodiscard, gnu::always_inline]] Real determinant() const { return a + b + c; }
 
  private:
   [[gnu::always_inline]] static Real cross(const ShearedVertex& p, const ShearedVertex& q) {
@@ -87,68 +88,70 @@ struct EdgeFunctions {
   }
 };
 
-struct Barycentrics {
-  float a = 0, b = 0, c = 0;
-  double inverse_determinant = 0;  // 0: the ray lies in the triangle's plane
-  double largest = 0;              // edge function, by magnitude
-};
-
-template <typename Real>
-[[nodiscard, gnu::always_inline]] inline Barycentrics barycentrics(
-    const EdgeFunctions<Real>& edge) {
-  const Real determinant = edge.a + edge.b + edge.c;
-  if (!(std::abs(determinant) > 0)) return {};
-  const Real inverse = 1 / determinant;
-  const auto weight = [&](Real e) __attribute__((always_inline)) {
-    return static_cast<float>(std::min(e * inverse, Real{1}));
-  };
-  return {weight(edge.a), weight(edge.b), weight(edge.c), double{inverse},
-          double{std::max(std::abs(edge.a), std::max(std::abs(edge.b), std::abs(edge.c)))}};
+[[nodiscard, gnu::always_inline]] inline float largest_size(float a, float b, float c) {
+  return std::max(std::abs(a), std::max(std::abs(b), std::abs(c)));
 }
+
+// How far the vertices are from the ray, and along it.
+struct Extent {
+  float x, y, z;            // largest size of each
+  float nearest, farthest;  // t
+  float depth;              // largest size of t
+
+  [[gnu::always_inline]] Extent(const ShearedVertex& p, const ShearedVertex& q,
+                                const ShearedVertex& r)
+      : x(largest_size(p.x, q.x, r.x)),
+        y(largest_size(p.y, q.y, r.y)),
+        z(largest_size(p.z, q.z, r.z)),
+        nearest(std::min(p.t, std::min(q.t, r.t))),
+        farthest(std::max(p.t, std::max(q.t, r.t))),
+        depth(std::max(std::abs(nearest), std::abs(farthest))) {}
+};
 
 // Where float loses no digits to its range.
 inline constexpr float least_determinant = 0x1p-100F;
 inline constexpr float most_determinant = 0x1p100F;
 
-[[nodiscard, gnu::always_inline]] inline float least(float a, float b, float c) {
-  return std::min(a, std::min(b, c));
-}
-[[nodiscard, gnu::always_inline]] inline float largest(float a, float b, float c) {
-  return std::max(a, std::max(b, c));
-}
-
 // Whether float has the digits that t needs: see the top of this file.
-[[nodiscard, gnu::always_inline]] inline bool well_conditioned(const ShearedVertex& p,
-                                                               const ShearedVertex& q,
-                                                               const ShearedVertex& r,
-                                                               const EdgeFunctions<float>& edge) {
+[[nodiscard, gnu::always_inline]] inline bool well_conditioned(const EdgeFunctions<float>& edge,
+                                                               const Extent& extent) {
   if (edge.a == 0 || edge.b == 0 || edge.c == 0) return false;
-  const float determinant = edge.a + edge.b + edge.c;
-  const float size = std::abs(determinant);
+  const float size = std::abs(edge.determinant());
   if (!(size >= least_determinant && size <= most_determinant)) return false;
-  const float x = largest(std::abs(p.x), std::abs(q.x), std::abs(r.x));
-  const float y = largest(std::abs(p.y), std::abs(q.y), std::abs(r.y));
-  const float nearest = least(p.t, q.t, r.t);
-  const float farthest = largest(p.t, q.t, r.t);
-  const float depth = std::max(std::abs(nearest), std::abs(farthest));
-  return x * (1 / size) * y * (farthest - nearest) <= 2 * depth;
+  return extent.x * (1 / size) * extent.y * (extent.farthest - extent.nearest) <= 2 * extent.depth;
 }
 
-// How far t can be from the truth, at most (pbrt-v4, 6.8.5): what decides its sign.
-[[nodiscard, gnu::always_inline]] inline double distance_error(const ShearedVertex& p,
-                                                               const ShearedVertex& q,
-                                                               const ShearedVertex& r,
-                                                               float scale_z,
-                                                               const Barycentrics& weights) {
-  const float z = largest(std::abs(p.z), std::abs(q.z), std::abs(r.z));
-  const float x = largest(std::abs(p.x), std::abs(q.x), std::abs(r.x));
-  const float y = largest(std::abs(p.y), std::abs(q.y), std::abs(r.y));
-  const float error_x = rounding_bound(5) * (x + z);
-  const float error_y = rounding_bound(5) * (y + z);
-  const float error_edge = 2 * (rounding_bound(2) * x * y + error_y * x + error_x * y);
-  // 3 roundings make z, 6 the sum of weighted z: product with the inverse, its own, product, sums.
-  const double error = double{rounding_bound(9)} * weights.largest + double{error_edge};
-  return 3 * error * std::abs(weights.inverse_determinant) * double{z} * double{std::abs(scale_z)};
+// How far t can be from the truth, at most (pbrt-v4, 6.8.5): what decides its sign. 5 roundings
+// make depths, 7 their weighted sum.
+template <typename Real>
+[[nodiscard, gnu::always_inline]] inline Real distance_error(const EdgeFunctions<Real>& edge,
+                                                             const Extent& extent) {
+  const float error_x = rounding_bound(5) * (extent.x + extent.z);
+  const float error_y = rounding_bound(5) * (extent.y + extent.z);
+  const float error_edge =
+      2 * (rounding_bound(2) * extent.x * extent.y + (error_y * extent.x + error_x * extent.y));
+  const Real largest = std::max(std::abs(edge.a), std::max(std::abs(edge.b), std::abs(edge.c)));
+  const Real error = Real{rounding_bound(12)} * largest + Real{error_edge};
+  return 3 * error * (1 / std::abs(edge.determinant())) * Real{extent.depth};
+}
+
+// A hit if the ray's line meets the triangle, as its edge functions say.
+template <typename Real>
+[[nodiscard, gnu::always_inline]] inline bool hit_in_front(
+    const EdgeFunctions<Real>& edge, const Extent& extent, const ShearedVertex& p,
+    const ShearedVertex& q, const ShearedVertex& r, float t_limit, TriangleHit& hit) {
+  const Real determinant = edge.determinant();
+  if (!(std::abs(determinant) > 0)) return false;  // the ray lies in the triangle's plane
+  const Real inverse = 1 / determinant;
+  const auto weight = [&](Real e) __attribute__((always_inline)) {
+    return static_cast<float>(std::min(e * inverse, Real{1}));
+  };
+  const float a = weight(edge.a);
+  const float b = weight(edge.b);
+  const float c = weight(edge.c);
+  const float t = a * p.t + b * q.t + c * r.t;
+  hit = {t, b, c};
+  return t > 0 && t <= t_limit && (extent.nearest > 0 || Real{t} > distance_error(edge, extent));
 }
 
 }  // namespace detail
@@ -164,21 +167,11 @@ inline constexpr float most_determinant = 0x1p100F;
   const detail::EdgeFunctions<float> edge(p, q, r);
   if (edge.mixed_signs()) return false;
 
-  detail::Barycentrics weights;
-  if (detail::well_conditioned(p, q, r, edge)) {
-    weights = detail::barycentrics(edge);
-  } else {
-    const detail::EdgeFunctions<double> exact(p, q, r);
-    if (exact.mixed_signs()) return false;
-    weights = detail::barycentrics(exact);
-  }
-  if (weights.inverse_determinant == 0) return false;
-
-  const float t = weights.a * p.t + weights.b * q.t + weights.c * r.t;
-  if (!(t > 0 && t <= t_limit)) return false;
-  hit = {t, weights.b, weights.c};
-  return detail::least(p.t, q.t, r.t) > 0 ||
-         double{t} > detail::distance_error(p, q, r, ray.scale_z, weights);
+  const detail::Extent extent(p, q, r);
+  if (detail::well_conditioned(edge, extent))
+    return detail::hit_in_front(edge, extent, p, q, r, t_limit, hit);
+  const detail::EdgeFunctions<double> exact(p, q, r);
+  return !exact.mixed_signs() && detail::hit_in_front(exact, extent, p, q, r, t_limit, hit);
 }
 
 // A search starts with no triangle at t_max and ends, if none is found, at infinity.
