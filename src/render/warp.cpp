@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <glm/gtc/constants.hpp>
 
 namespace pah {
@@ -20,9 +21,13 @@ Vec3 from_height(float z, float sin_theta, float u) {
 constexpr int intervals = 256;
 constexpr double a0 = 0.35875, a1 = 0.48829, a2 = 0.14128, a3 = 0.01168;
 
+// Where to look for a number's interval: at the first one of its cell.
+constexpr int cells = 1024;
+
 struct Window {
   std::array<float, intervals + 1> density;  // at the knots
   std::array<float, intervals + 1> cdf;
+  std::array<std::uint16_t, cells> first;
 };
 
 Window make_window() {
@@ -37,14 +42,20 @@ Window make_window() {
     window.density[static_cast<std::size_t>(i)] = static_cast<float>(density);
     window.cdf[static_cast<std::size_t>(i)] = static_cast<float>(sum);
   }
+  std::uint16_t interval = 0;
+  for (int cell = 0; cell < cells; ++cell) {
+    const float u = static_cast<float>(cell) / cells;
+    while (interval + 1 < intervals && window.cdf[interval + 1U] <= u) ++interval;
+    window.first[static_cast<std::size_t>(cell)] = interval;
+  }
   return window;
 }
 
 const Window window = make_window();
 
 float sample_window(float u) {
-  const auto next = std::upper_bound(window.cdf.begin() + 1, window.cdf.end() - 1, u);
-  const auto i = static_cast<std::size_t>(next - window.cdf.begin()) - 1;
+  std::size_t i = window.first[static_cast<std::size_t>(u * cells)];
+  while (i + 1 < intervals && window.cdf[i + 1] <= u) ++i;
   // Inverts a t + (b - a) t^2 / 2 = c, in the form that does not cancel.
   const float a = window.density[i];
   const float b = window.density[i + 1];
@@ -60,28 +71,12 @@ Vec3 sample_uniform_sphere(Vec2 u) { return sample_uniform_cone(u, 2); }
 
 float pdf_uniform_sphere() { return 1 / (4 * pi); }
 
-Vec3 sample_cosine_hemisphere(Vec2 u) {
-  const Vec2 d = sample_unit_disk(u);
-  return {d, std::sqrt(std::max(0.0F, 1 - glm::dot(d, d)))};
-}
-
-float pdf_cosine_hemisphere(const Vec3& w) { return std::max(0.0F, w.z) / pi; }
-
 Vec3 sample_uniform_cone(Vec2 u, float one_minus_cos) {
   const float h = u.x * one_minus_cos;
   return from_height(1 - h, std::sqrt(h * (2 - h)), u.y);
 }
 
 float pdf_uniform_cone(float one_minus_cos) { return 1 / (2 * pi * one_minus_cos); }
-
-Vec2 sample_unit_disk(Vec2 u) {
-  const Vec2 s = 2.0F * u - 1.0F;
-  if (s.x == 0 && s.y == 0) return {0, 0};
-  const bool x_larger = std::abs(s.x) > std::abs(s.y);
-  const float r = x_larger ? s.x : s.y;
-  const float phi = x_larger ? pi / 4 * (s.y / s.x) : pi / 2 - pi / 4 * (s.x / s.y);
-  return {r * std::cos(phi), r * std::sin(phi)};
-}
 
 Vec2 sample_uniform_triangle(Vec2 u) {
   const float root = std::sqrt(u.x);
