@@ -101,12 +101,15 @@ float importance(const LightBounds& bounds, const LitPoint& at) {
   return result;
 }
 
+DistantBounds distant_bounds(const Vec3& axis, float angle, float irradiance) {
+  return {axis, std::cos(angle), std::sin(angle), irradiance, angle >= pi};
+}
+
 float importance(const DistantBounds& bounds, const LitPoint& at) {
-  if (bounds.angle >= pi) return bounds.irradiance;
+  if (bounds.everywhere) return bounds.irradiance;
   float cos_i = glm::dot(bounds.axis, at.normal);
   if (at.transmits) cos_i = std::abs(cos_i);
-  const float cosine =
-      cos_of_difference(sine_of(cos_i), cos_i, std::sin(bounds.angle), std::cos(bounds.angle));
+  const float cosine = cos_of_difference(sine_of(cos_i), cos_i, bounds.sin_angle, bounds.cos_angle);
   return std::max(0.0F, cosine) * bounds.irradiance;
 }
 

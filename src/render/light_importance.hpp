@@ -30,10 +30,13 @@ struct LightBounds {
 
 // A light at infinity.
 struct DistantBounds {
-  Vec3 axis{0, 0, 1};    // towards the light, of unit length
-  float angle = 0;       // half-angle of its cone, radians; pi: light from everywhere
+  Vec3 axis{0, 0, 1};  // towards the light, of unit length
+  float cos_angle = 1, sin_angle = 0;
   float irradiance = 0;  // on a surface that faces it, mean of the channels
+  bool everywhere = false;
 };
+// `angle` is half of its cone's, in radians; pi: light from everywhere.
+[[nodiscard]] DistantBounds distant_bounds(const Vec3& axis, float angle, float irradiance);
 
 // Upper bounds in shape, estimates in size: zero only where nothing arrives. W/m2.
 [[nodiscard]] float importance(const LightBounds& bounds, const LitPoint& at);

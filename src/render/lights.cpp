@@ -194,7 +194,9 @@ void gather_triangles(const World& world, std::vector<Emitter>& emitters) {
     if (surface.light == no_light) continue;
     auto& emitter = std::get<AreaEmitter>(emitters[surface.light]);
     for (std::uint32_t i = 0; i < surface.triangle_count; ++i) {
-      emitter.triangles.push_back(surface.first_triangle + i);
+      const std::uint32_t index = surface.first_triangle + i;
+      const Triangle triangle = world.triangles()[index];
+      emitter.triangles.push_back({triangle, geometric_normal(triangle), index, area(triangle)});
     }
   }
   for (Emitter& any : emitters) {
@@ -202,28 +204,27 @@ void gather_triangles(const World& world, std::vector<Emitter>& emitters) {
     if (emitter == nullptr) continue;
     std::vector<double> areas;
     areas.reserve(emitter->triangles.size());
-    for (const std::uint32_t triangle : emitter->triangles) {
-      areas.push_back(area(world.triangles()[triangle]));
-      emitter->area += areas.back();
+    for (const EmittingTriangle& triangle : emitter->triangles) {
+      areas.push_back(triangle.area);
+      emitter->area += triangle.area;
     }
     if (emitter->area > 0) emitter->by_area = AliasTable(areas);
   }
 }
 
-LightBounds bounds_of(const AreaEmitter& emitter, const Triangles& triangles) {
+LightBounds bounds_of(const AreaEmitter& emitter) {
   LightBounds bounds;
   DVec3 sum(0);
-  for (const std::uint32_t i : emitter.triangles) {
-    bounds.box.extend(triangles[i].bounds());
-    sum += scaled_normal(triangles[i]);
+  for (const EmittingTriangle& triangle : emitter.triangles) {
+    bounds.box.extend(triangle.corners.bounds());
+    sum += scaled_normal(triangle.corners);
   }
   const double length = glm::length(sum);
   if (length > 0) {
     bounds.axis = Vec3(sum / length);
-    for (const std::uint32_t i : emitter.triangles) {
-      const Vec3 normal = geometric_normal(triangles[i]);
-      if (normal != Vec3(0)) {
-        bounds.cos_theta_o = std::min(bounds.cos_theta_o, glm::dot(bounds.axis, normal));
+    for (const EmittingTriangle& triangle : emitter.triangles) {
+      if (triangle.normal != Vec3(0)) {
+        bounds.cos_theta_o = std::min(bounds.cos_theta_o, glm::dot(bounds.axis, triangle.normal));
       }
     }
   } else {
@@ -246,7 +247,7 @@ LightBounds bounds_at(const Vec3& position, const Vec3& axis, double theta_o, do
   return bounds;
 }
 
-LightSampler make_sampler(const World& world, const std::vector<Emitter>& emitters) {
+LightSampler make_sampler(const std::vector<Emitter>& emitters) {
   std::vector<LightSampler::Placed> placed;
   std::vector<LightSampler::Distant> distant;
   for (std::size_t i = 0; i < emitters.size(); ++i) {
@@ -262,15 +263,15 @@ LightSampler make_sampler(const World& world, const std::vector<Emitter>& emitte
       const double outer = std::acos(static_cast<double>(spot->cos_outer));
       place(bounds_at(spot->position, spot->axis, inner, outer - inner, spot->intensity));
     } else if (const auto* emitter = std::get_if<AreaEmitter>(&emitters[i])) {
-      if (emitter->area > 0) place(bounds_of(*emitter, world.triangles()));
+      if (emitter->area > 0) place(bounds_of(*emitter));
     } else if (const auto* sun = std::get_if<DirectionalEmitter>(&emitters[i])) {
       const float angle = 2 * std::asin(std::sqrt(sun->one_minus_cos / 2));
       const float irradiance = mean_of(sun->irradiance);
-      if (irradiance > 0) distant.push_back({id, {sun->axis, angle, irradiance}});
+      if (irradiance > 0) distant.push_back({id, distant_bounds(sun->axis, angle, irradiance)});
     } else if (const auto* sky = std::get_if<EnvironmentEmitter>(&emitters[i])) {
       const float mean = sky->distribution ? static_cast<float>(sky->distribution->mean())
                                            : mean_of(sky->radiance);
-      if (mean > 0) distant.push_back({id, {Vec3(0, 1, 0), pi, pi * mean}});
+      if (mean > 0) distant.push_back({id, distant_bounds(Vec3(0, 1, 0), pi, pi * mean)});
     }
   }
   return {std::move(placed), std::move(distant), emitters.size()};
@@ -279,9 +280,12 @@ LightSampler make_sampler(const World& world, const std::vector<Emitter>& emitte
 }  // namespace
 
 Vec3 geometric_normal(const Triangle& triangle) {
-  const DVec3 normal = scaled_normal(triangle);
-  const double length = glm::length(normal);
-  return length > 0 ? Vec3(normal / length) : Vec3(0);
+  const DVec3 exact = scaled_normal(triangle);
+  const Vec3 normal(exact);
+  const float length2 = glm::dot(normal, normal);
+  if (length2 > 0x1p-80F && length2 < 0x1p80F) return normal / std::sqrt(length2);
+  const double length = glm::length(exact);
+  return length > 0 ? Vec3(exact / length) : Vec3(0);
 }
 
 double area(const Triangle& triangle) { return 0.5 * glm::length(scaled_normal(triangle)); }
@@ -304,25 +308,22 @@ Lights::Lights(const World& world, const TextureStore& textures)
     any_visible_ = any_visible_ || (emitter != nullptr && emitter->area > 0);
   }
   any_visible_ = any_visible_ || !visible_distant_.empty();
-  sampler_ = make_sampler(world, emitters_);
+  sampler_ = make_sampler(emitters_);
 }
 
 std::optional<LightSample> Lights::sample_area(const AreaEmitter& emitter, const LitPoint& at,
                                                float u, const Vec2& u2) const {
-  const std::uint32_t index = emitter.triangles[emitter.by_area.sample(u)];
-  const Triangle triangle = world_.triangles()[index];
-  const double omega = solid_angle(triangle, at.position);
-  const bool by_solid_angle = sampled_by_solid_angle(omega);
-  const std::optional<Vec2> b = by_solid_angle
-                                    ? sample_solid_angle(triangle, at.position, omega, u2)
-                                    : std::optional<Vec2>(sample_uniform_triangle(u2));
-  if (!b) return std::nullopt;
-  const float b0 = 1 - b->x - b->y;
+  const EmittingTriangle& from = emitter.triangles[emitter.by_area.sample(u)];
+  const Triangle& triangle = from.corners;
+  const SphericalTriangle seen(triangle, at.position);
+  const bool by_solid_angle = seen.sampled_by_solid_angle();
+  const Vec2 b = by_solid_angle ? seen.sample(u2) : sample_uniform_triangle(u2);
+  const float b0 = 1 - b.x - b.y;
+  const Vec3 p = b0 * triangle.a, q = b.x * triangle.b, r = b.y * triangle.c;
   SurfacePoint point;
-  point.position = b0 * triangle.a + b->x * triangle.b + b->y * triangle.c;
-  point.error = rounding_bound(7) * (glm::abs(b0 * triangle.a) + glm::abs(b->x * triangle.b) +
-                                     glm::abs(b->y * triangle.c));
-  point.normal = geometric_normal(triangle);
+  point.position = p + q + r;
+  point.error = rounding_bound(7) * (glm::abs(p) + glm::abs(q) + glm::abs(r));
+  point.normal = from.normal;
 
   const Vec3 to_light = point.position - at.position;
   const float distance2 = glm::dot(to_light, to_light);
@@ -333,15 +334,15 @@ std::optional<LightSample> Lights::sample_area(const AreaEmitter& emitter, const
   if (cosine == 0 || (cosine < 0 && !emitter.two_sided)) return std::nullopt;
   sample.radiance = emitter.radiance.value;
   if (emitter.radiance.texture != no_texture)
-    sample.radiance = textures_.color(emitter.radiance, uv_at(world_, index, *b));
+    sample.radiance = textures_.color(emitter.radiance, uv_at(world_, from.index, b));
   sample.pdf = by_solid_angle
-                   ? static_cast<float>(area(triangle) / (emitter.area * omega))
+                   ? static_cast<float>(from.area / (emitter.area * seen.solid_angle()))
                    : static_cast<float>(static_cast<double>(distance2) /
                                         (static_cast<double>(std::abs(cosine)) * emitter.area));
   sample.target = offset_point(point, -to_light);
   sample.target_error = end_error(triangle, point, at.position) / std::abs(cosine);
-  sample.triangle = index;
-  sample.barycentrics = *b;
+  sample.triangle = from.index;
+  sample.barycentrics = b;
   return sample;
 }
 
@@ -368,9 +369,9 @@ float Lights::pdf_area(LightId light, const LitPoint& at, std::uint32_t triangle
                        const Vec3& position, const Vec3& normal) const {
   const auto& emitter = std::get<AreaEmitter>(emitters_[light]);
   const Triangle corners = world_.triangles()[triangle];
-  const double omega = solid_angle(corners, at.position);
-  if (sampled_by_solid_angle(omega)) {
-    return static_cast<float>(area(corners) / (emitter.area * omega));
+  const SphericalTriangle seen(corners, at.position);
+  if (seen.sampled_by_solid_angle()) {
+    return static_cast<float>(area(corners) / (emitter.area * seen.solid_angle()));
   }
   const Vec3 to_light = position - at.position;
   const float distance2 = glm::dot(to_light, to_light);

@@ -50,12 +50,19 @@ struct DirectionalEmitter {
   Vec3 radiance{0};         // if not parallel
 };
 
+struct EmittingTriangle {
+  Triangle corners;
+  Vec3 normal{0};
+  std::uint32_t index = 0;
+  double area = 0;
+};
+
 struct AreaEmitter {
   ColorInput radiance{Vec3(0)};
   float mean_radiance = 0;  // of the channels, and of the image
   bool two_sided = false;
   double area = 0;  // 0: nothing emits
-  std::vector<std::uint32_t> triangles;
+  std::vector<EmittingTriangle> triangles;
   AliasTable by_area;
 };
 

@@ -71,8 +71,9 @@ TEST_CASE("spherical triangles are sampled uniformly in solid angle") {
       Triangle{{0.1F, 1, 0}, {-40, 1, 1}, {35, 0.5F, -30}}};
   Random random(1);
   for (const Triangle& t : triangles) {
-    const double omega = solid_angle(t, Vec3(0));
-    REQUIRE(sampled_by_solid_angle(omega));
+    const SphericalTriangle seen(t, Vec3(0));
+    const double omega = seen.solid_angle();
+    REQUIRE(seen.sampled_by_solid_angle());
     // Cells: the triangle split four ways, four times. Each child's solid angle is exact.
     constexpr int levels = 4;
     std::vector<double> counts(256), expected(256);
@@ -95,12 +96,12 @@ TEST_CASE("spherical triangles are sampled uniformly in solid angle") {
       for (int level = 0; level < levels; ++level)
         p = child(p, (cell >> (2 * (levels - 1 - level))) & 3);
       expected[static_cast<std::size_t>(cell)] =
-          n * solid_angle({Vec3(p[0]), Vec3(p[1]), Vec3(p[2])}, Vec3(0)) / omega;
+          n * SphericalTriangle({Vec3(p[0]), Vec3(p[1]), Vec3(p[2])}, Vec3(0)).solid_angle() /
+          omega;
     }
     for (int i = 0; i < n; ++i) {
-      const auto b = sample_solid_angle(t, Vec3(0), omega, random.next_2d());
-      REQUIRE(b);
-      double b0 = 1.0 - b->x - b->y, b1 = b->x, b2 = b->y;
+      const Vec2 b = seen.sample(random.next_2d());
+      double b0 = 1.0 - b.x - b.y, b1 = b.x, b2 = b.y;
       int cell = 0;
       for (int level = 0; level < levels; ++level) {
         b0 *= 2, b1 *= 2, b2 *= 2;
