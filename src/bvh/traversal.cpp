@@ -260,29 +260,33 @@ HWY_INLINE void closest(const Bvh& bvh, const OneOfFour& ray, Hit& best, Travers
           const std::uint32_t k = lowest_bit(children);
           return Entry(near[k], node.children[k]);
         };
-        Entry nearest = first_of(hits);
+        const std::uint32_t first = lowest_bit(hits);
+        const std::uint32_t others = hits & (hits - 1);
+        if (others == 0) {
+          current = node.children[first];
+          continue;
+        }
+        Entry nearest(near[first], node.children[first]);
+        hits = others;
+        Entry second = first_of(hits);
         hits &= hits - 1;
-        if (hits != 0) {
-          Entry second = first_of(hits);
+        order(nearest, second);
+        if (hits == 0) {
+          *top++ = second;
+        } else {
+          Entry third = first_of(hits);
           hits &= hits - 1;
+          order(second, third);
           order(nearest, second);
-          if (hits == 0) {
-            *top++ = second;
-          } else {
-            Entry third = first_of(hits);
-            hits &= hits - 1;
-            order(second, third);
-            order(nearest, second);
-            Entry* const bottom = top;
-            *top++ = third;
-            *top++ = second;
-            for (; hits != 0; hits &= hits - 1) {
-              Entry entry = first_of(hits);
-              order(nearest, entry);
-              Entry* place = top++;
-              for (; place > bottom && place[-1] < entry; --place) *place = place[-1];
-              *place = entry;
-            }
+          Entry* const bottom = top;
+          *top++ = third;
+          *top++ = second;
+          for (; hits != 0; hits &= hits - 1) {
+            Entry entry = first_of(hits);
+            order(nearest, entry);
+            Entry* place = top++;
+            for (; place > bottom && place[-1] < entry; --place) *place = place[-1];
+            *place = entry;
           }
         }
         current = nearest.child();
