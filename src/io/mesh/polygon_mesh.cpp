@@ -53,8 +53,10 @@ class TriangleMaker {
     std::size_t faces = 0;
     bool normals = false;
     bool uvs = false;
+    const bool neither = polygons_.normals.empty() && polygons_.uvs.empty();
     for (const Faces& run : runs) {
       faces += run.last - run.first;
+      if (neither) continue;
       std::size_t corner = run.first_corner;
       for (std::size_t face = run.first; face < run.last && !(normals && uvs); ++face)
         for (unsigned k = 0; k < polygons_.face_sizes[face]; ++k, ++corner) {
@@ -64,7 +66,10 @@ class TriangleMaker {
         }
     }
     has_normals_ = normals && options_.normals == MeshNormals::file;
-    builder_ = MeshBuilder({has_normals_, uvs, !polygons_.colors.empty()}, faces);
+    // A mesh of all faces has most vertices; pages that nothing is written to cost nothing.
+    const bool all = faces == polygons_.face_sizes.size();
+    builder_ = MeshBuilder({has_normals_, uvs, !polygons_.colors.empty()}, faces,
+                           all ? std::min(made_.size(), polygons_.corners.size()) : 0);
   }
 
   void add(const Faces& run) {

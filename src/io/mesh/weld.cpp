@@ -23,8 +23,14 @@ std::uint64_t mix(std::uint64_t hash, const Vec3& v) {
 
 }  // namespace
 
-MeshBuilder::MeshBuilder(const VertexParts& parts, std::size_t expected_triangles) : parts_(parts) {
+MeshBuilder::MeshBuilder(const VertexParts& parts, std::size_t expected_triangles,
+                         std::size_t expected_vertices)
+    : parts_(parts) {
   mesh_.triangles.reserve(expected_triangles);
+  mesh_.positions.reserve(expected_vertices);
+  if (parts.normals) mesh_.normals.reserve(expected_vertices);
+  if (parts.uvs) mesh_.uvs.reserve(expected_vertices);
+  if (parts.colors) mesh_.colors.reserve(expected_vertices);
   // A closed mesh has half as many vertices as triangles.
   table_.resize(std::bit_ceil(expected_triangles + 16));
 }

@@ -16,7 +16,8 @@ struct VertexParts {
 
 class MeshBuilder {
  public:
-  MeshBuilder(const VertexParts& parts, std::size_t expected_triangles);
+  MeshBuilder(const VertexParts& parts, std::size_t expected_triangles,
+              std::size_t expected_vertices = 0);
 
   // The index of the vertex. What the mesh has none of is ignored.
   std::uint32_t add_vertex(const Vec3& position, const Vec3& normal, const Vec2& uv,
