@@ -17,15 +17,14 @@ namespace {
 class CornerNumbers {
  public:
   // `positions` are those of the corners before the piece.
-  void add(const ObjPiece& piece, std::size_t element,
-           const std::vector<std::uint32_t>& positions) {
+  void add(const ObjPiece& piece, std::size_t element, std::span<const std::uint32_t> positions) {
     const std::vector<std::uint32_t>& numbers = piece.corners[element];
     if (numbers.empty()) return;
     const Kind kind = kind_of(numbers, piece.corners[0]);
     if (positions.empty()) kind_ = kind;
     if (kind == kind_ && kind != Kind::own) return;
     if (kind_ == Kind::none) numbers_.assign(positions.size(), no_index);
-    if (kind_ == Kind::as_position) numbers_ = positions;
+    if (kind_ == Kind::as_position) numbers_.assign(positions.begin(), positions.end());
     kind_ = Kind::own;
     numbers_.insert(numbers_.end(), numbers.begin(), numbers.end());
   }
@@ -70,7 +69,7 @@ class ObjReader {
          texts = text_.next(at_once, place_.lines))
       read(texts);
     check_numbers();
-    if (polygons_.face_sizes.empty()) throw MeshFileError("the file has no faces");
+    if (polygons_.faces() == 0) throw MeshFileError("the file has no faces");
     make_vertices();
     for (const ObjPiece::Ignored& ignored : ignored_)
       result_.warnings.push_back("'" + ignored.keyword + "', first in line " +
@@ -133,12 +132,11 @@ class ObjReader {
   void add(const ObjPiece& piece) {
     pieces_left_ -= std::min<std::uint64_t>(pieces_left_, 1);
     for (const ObjPiece::MaterialUse& use : piece.material_uses) use_material(use);
-    for (std::size_t e : {1U, 2U}) numbers_[e - 1].add(piece, e, polygons_.corners);
-    append(piece.positions, polygons_.positions);
-    append(piece.uvs, polygons_.uvs);
-    append(piece.normals, polygons_.normals);
-    append(piece.face_sizes, polygons_.face_sizes);
-    append(piece.corners[0], polygons_.corners);
+    for (std::size_t e : {1U, 2U}) numbers_[e - 1].add(piece, e, polygons_.all_corners());
+    append<Vec3>(piece.positions, polygons_.positions);
+    append<Vec2>(piece.uvs, polygons_.uvs);
+    append<Vec3>(piece.normals, polygons_.normals);
+    append_faces(piece);
     for (std::size_t e = 0; e < early_.size(); ++e)
       if (piece.early[e].number > early_[e].number) early_[e] = piece.early[e];
     result_.libraries.insert(result_.libraries.end(), piece.libraries.begin(),
@@ -147,9 +145,25 @@ class ObjReader {
       add_ignored(ignored_, ignored.keyword, ignored.line);
   }
 
+  void append_faces(const ObjPiece& piece) {
+    if (piece.face_sizes.size() == piece.triangles && polygons_.corners.empty()) {
+      const auto* const triangles = reinterpret_cast<const UVec3*>(piece.corners[0].data());
+      append<UVec3>({triangles, piece.face_sizes.size()}, polygons_.triangles);
+      return;
+    }
+    if (!polygons_.triangles.empty()) {
+      const std::span<const std::uint32_t> corners = polygons_.all_corners();
+      polygons_.corners.assign(corners.begin(), corners.end());
+      polygons_.face_sizes.assign(polygons_.triangles.size(), 3);
+      polygons_.triangles = {};
+    }
+    append<std::uint16_t>(piece.face_sizes, polygons_.face_sizes);
+    append<std::uint32_t>(piece.corners[0], polygons_.corners);
+  }
+
   // With room for as many again from each piece to come: growing takes longer than reading.
   template <class T>
-  void append(const std::vector<T>& from, std::vector<T>& to) const {
+  void append(std::span<const T> from, std::vector<T>& to) const {
     if (to.capacity() < to.size() + from.size())
       to.reserve(to.size() + from.size() + from.size() * pieces_left_);
     to.insert(to.end(), from.begin(), from.end());
@@ -159,7 +173,7 @@ class ObjReader {
     const auto [entry, is_new] = materials_.emplace(
         std::string(use.name), static_cast<std::uint32_t>(result_.materials.size()));
     if (is_new) result_.materials.emplace_back(use.name);
-    polygons_.runs.push_back({polygons_.face_sizes.size() + use.first_face, entry->second});
+    polygons_.runs.push_back({polygons_.faces() + use.first_face, entry->second});
   }
 
   void check_numbers() const {
@@ -189,8 +203,9 @@ class ObjReader {
     std::vector<std::uint32_t> first(polygons_.positions.size(), no_index);
     std::vector<std::uint32_t> next;
     std::vector<PolygonVertex>& vertices = polygons_.vertices;
-    for (std::size_t i = 0; i < polygons_.corners.size(); ++i) {
-      const std::uint32_t position = polygons_.corners[i];
+    const std::span<std::uint32_t> corners = polygons_.all_corners();
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      const std::uint32_t position = corners[i];
       const PolygonVertex wanted{position, uvs.at(i, position), normals.at(i, position)};
       std::uint32_t vertex = first[position];
       bool known = false;
@@ -203,7 +218,7 @@ class ObjReader {
         vertices.push_back(wanted);
         next.push_back(std::exchange(first[position], vertex));
       }
-      polygons_.corners[i] = vertex;
+      corners[i] = vertex;
     }
   }
 
