@@ -49,7 +49,9 @@ class TriangleMaker {
                  {no_index, no_index});
     uses_normals_ = options.normals == MeshNormals::file && !polygons.normals.empty();
     const auto count = static_cast<std::uint32_t>(made_.size());
-    if (uses_normals_ && !all_have_normals(count)) return;
+    // Where each corner is a vertex, as in STL files, equal ones are near each other, and found
+    // faster one by one.
+    if (2 * made_.size() > corners_.size() || (uses_normals_ && !all_have_normals(count))) return;
     first_equal_ =
         first_equal_vertices(count, [this](std::uint32_t vertex) { return values_of(vertex); });
   }
@@ -72,11 +74,11 @@ class TriangleMaker {
         }
     }
     has_normals_ = normals && options_.normals == MeshNormals::file;
-    // A mesh of all faces has most vertices; pages that nothing is written to cost nothing.
     const bool all = faces == polygons_.faces();
     in_place_ = all && !polygons_.triangles.empty();
+    // A mesh of all faces has most vertices; pages that nothing is written to cost nothing.
     builder_ = MeshBuilder({has_normals_, uvs, !polygons_.colors.empty()}, faces,
-                           all ? std::min(made_.size(), corners_.size()) : 0);
+                           all && !first_equal_.empty() ? made_.size() : 0);
   }
 
   void add(const Faces& run) {
@@ -191,7 +193,7 @@ class TriangleMaker {
   std::span<const std::uint32_t> corners_;
   const MeshFileOptions& options_;
   std::vector<Made> made_;
-  // Of each of the file's vertices; empty if some get the normals of their triangles.
+  // Of each of the file's vertices; empty if they are looked for one by one.
   std::vector<std::uint32_t> first_equal_;
   bool uses_normals_ = false;
   std::uint32_t material_ = 0;
