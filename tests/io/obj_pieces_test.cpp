@@ -177,3 +177,34 @@ TEST_CASE("OBJ: a line without end is an error behind what stands before it") {
   std::ofstream(file, std::ios::binary) << "v 1 2 3\nv 4 x 6\n#" << std::string(40U << 20, ' ');
   CHECK(read_in_pieces(file, 1U << 17).error.substr(0, 4) == "2:5:");
 }
+
+TEST_CASE("OBJ: equal vertices are one, however many there are, in the order of their use") {
+  constexpr int side = 100;
+  std::string text;
+  for (int copy = 0; copy < 2; ++copy)
+    for (int i = 0; i < side * side; ++i)
+      text += "v " + std::to_string(i % side) + " " + std::to_string(i / side) + " 0\n";
+  const auto corner = [](int x, int y) {
+    return " " + std::to_string((x + y) % 2 * side * side + y * side + x + 1);
+  };
+  for (int y = 0; y + 1 < side; ++y)
+    for (int x = 0; x + 1 < side; ++x) {
+      text += "f" + corner(x, y) + corner(x + 1, y) + corner(x, y + 1) + "\n";
+      text += "f" + corner(x + 1, y) + corner(x + 1, y + 1) + corner(x, y + 1) + "\n";
+    }
+  // The second copy of this corner is equal, but not the same to the last bit.
+  text.replace(text.find("v 0 1 0"), 7, "v 0 1 -0");
+  text += "f" + corner(0, 0) + " " + std::to_string(side + 1) + corner(1, 0) + "\n";
+  const TemporaryFolder folder;
+  std::ofstream(folder / "a.obj", std::ios::binary) << text;
+  const Outcome outcome = read_in_pieces(folder / "a.obj", 1U << 12);
+  REQUIRE(outcome.meshes.meshes.size() == 1);
+  const Mesh& mesh = outcome.meshes.meshes.front();
+  CHECK(mesh.positions.size() == side * side);
+  std::uint32_t next = 0;
+  for (const UVec3& t : mesh.triangles)
+    for (int k = 0; k < 3; ++k) {
+      REQUIRE(t[k] <= next);
+      next += t[k] == next ? 1 : 0;
+    }
+}
