@@ -8,7 +8,6 @@ namespace pah {
 namespace {
 
 constexpr std::size_t block = 1U << 18;  // what fits the second-level cache
-constexpr std::size_t longest_line = 1U << 24;
 
 }  // namespace
 
@@ -47,6 +46,12 @@ bool FileReader::fill(std::size_t count) {
   end_ += more;
   unread_ -= more;
   return true;
+}
+
+std::string_view FileReader::ahead(std::uint64_t count) {
+  const auto size = static_cast<std::size_t>(std::min(count, left()));
+  if (end_ - at_ < size) fill(size);
+  return {buffer_.data() + at_, size};
 }
 
 std::optional<std::string_view> FileReader::line() {

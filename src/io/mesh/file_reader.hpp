@@ -12,6 +12,8 @@
 
 namespace pah {
 
+inline constexpr std::size_t longest_line = 1U << 24;  // in bytes, that makes sense
+
 class FileReader {
  public:
   // Throws MeshFileError if the file cannot be read or has more than `max_bytes`.
@@ -32,6 +34,12 @@ class FileReader {
     return begin;
   }
 
+  // The next `count` bytes, or all that are left; valid until the next call. They stay the next.
+  [[nodiscard]] std::string_view ahead(std::uint64_t count);
+  // Goes past bytes that were seen ahead.
+  void skip(std::size_t count) { at_ += count; }
+
+  [[nodiscard]] char line_end() const { return line_end_; }
   [[nodiscard]] std::uint64_t size() const { return size_; }
   // Bytes that have not been read yet.
   [[nodiscard]] std::uint64_t left() const { return unread_ + (end_ - at_); }

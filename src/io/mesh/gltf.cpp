@@ -49,7 +49,7 @@ class Importer {
     for (const GltfPlace& place : read_gltf_nodes(document_.json, ignored))
       for (const GltfPrimitive& primitive : read(place.mesh))
         append(primitive.polygons, place.world_from_object, all);
-    make_meshes(all, options_, out_);
+    make_meshes(std::move(all), options_, out_);
   }
 
   void read_parts() {

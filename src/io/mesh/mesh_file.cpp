@@ -34,7 +34,7 @@ MeshFile read_format(const fs::path& file, const MeshFileOptions& options) {
   if (extension == ".obj") {
     ObjFile obj = read_obj(file, options);
     result.warnings = std::move(obj.warnings);
-    make_meshes(obj.polygons, options, result);
+    make_meshes(std::move(obj.polygons), options, result);
     if (!options.merged) read_mtl_materials(obj, file, options, result);
   } else if (extension == ".ply") {
     make_meshes(read_ply(file, options, result.warnings), options, result);

@@ -1,56 +1,77 @@
 #include "io/mesh/obj.hpp"
 
 #include <algorithm>
-#include <charconv>
+#include <span>
 #include <string_view>
 #include <unordered_map>
 #include <utility>
 
-#include "io/mesh/file_reader.hpp"
-#include "io/mesh/text.hpp"
+#include "io/mesh/obj_piece.hpp"
+#include "io/mesh/statement_text.hpp"
+#include "parallel/parallel_for.hpp"
 
 namespace pah {
 namespace {
 
-// Positions, texture coordinates or normals: how many there are so far, the number that each corner
-// uses, and the highest that one used before it was there.
-struct Elements {
-  const char* name;
-  std::int64_t count = 0;
-  std::vector<std::uint32_t> corners{};  // none as long as no corner uses any
-  std::int64_t highest = 0;
-  int line = 0;
-  int column = 0;
-  std::string excerpt{};
+// The texture coordinate or normal of every corner, stored only if it is not the corner's position.
+class CornerNumbers {
+ public:
+  // `positions` are those of the corners before the piece.
+  void add(const ObjPiece& piece, std::size_t element, std::span<const std::uint32_t> positions) {
+    const std::vector<std::uint32_t>& numbers = piece.corners[element];
+    if (numbers.empty()) return;
+    const Kind kind = kind_of(numbers, piece.corners[0]);
+    if (positions.empty()) kind_ = kind;
+    if (kind == kind_ && kind != Kind::own) return;
+    if (kind_ == Kind::none) numbers_.assign(positions.size(), no_index);
+    if (kind_ == Kind::as_position) numbers_.assign(positions.begin(), positions.end());
+    kind_ = Kind::own;
+    numbers_.insert(numbers_.end(), numbers.begin(), numbers.end());
+  }
+
+  [[nodiscard]] bool own() const { return kind_ == Kind::own; }
+  [[nodiscard]] bool none() const { return kind_ == Kind::none; }
+  [[nodiscard]] std::uint32_t at(std::size_t corner, std::uint32_t position) const {
+    return own() ? numbers_[corner] : none() ? no_index : position;
+  }
+
+ private:
+  enum class Kind { none, as_position, own };
+
+  static Kind kind_of(const std::vector<std::uint32_t>& numbers,
+                      const std::vector<std::uint32_t>& positions) {
+    if (numbers == positions) return Kind::as_position;
+    const bool none = std::all_of(numbers.begin(), numbers.end(),
+                                  [](std::uint32_t number) { return number == no_index; });
+    return none ? Kind::none : Kind::own;
+  }
+
+  Kind kind_ = Kind::none;
+  std::vector<std::uint32_t> numbers_;
 };
-
-enum class Statement { other, position, uv, normal, face };
-
-// Not drawn, or without a meaning for a picture.
-constexpr std::string_view silent[] = {
-    "o",      "g",      "s",     "l",        "p",        "vp",         "mg",        "lod",
-    "usemap", "maplib", "bevel", "c_interp", "d_interp", "shadow_obj", "trace_obj", "end"};
-
-bool begins_comment(std::string_view line) {
-  const std::string_view word = Words(line).next();
-  return !word.empty() && word.front() == '#';
-}
 
 class ObjReader {
  public:
-  ObjReader(const std::filesystem::path& file, const MeshFileOptions& options)
-      : file_(file, options.file_bytes), max_triangles_(options.triangles) {
+  ObjReader(const std::filesystem::path& file, const MeshFileOptions& options,
+            std::size_t piece_bytes)
+      : text_(file, options.file_bytes, piece_bytes),
+        pieces_left_(text_.left() / piece_bytes + 1),
+        max_triangles_(options.triangles) {
+    place_.line_end = text_.line_end();
     result_.materials.emplace_back();
     materials_.emplace("", 0);
   }
 
   ObjFile read() {
-    while (const auto line = file_.line()) read_line(*line);
-    end();
+    // Enough for each thread to find one when another takes longer.
+    const std::size_t at_once = 4UL * parallel_threads();
+    for (auto texts = text_.next(at_once, 0); !texts.empty();
+         texts = text_.next(at_once, place_.lines))
+      read(texts);
     check_numbers();
-    if (polygons_.face_sizes.empty()) throw MeshFileError("the file has no faces");
+    if (polygons_.faces() == 0) throw MeshFileError("the file has no faces");
     make_vertices();
-    for (const Ignored& ignored : ignored_)
+    for (const ObjPiece::Ignored& ignored : ignored_)
       result_.warnings.push_back("'" + ignored.keyword + "', first in line " +
                                  std::to_string(ignored.line) + ", cannot be read and is left out");
     result_.polygons = std::move(polygons_);
@@ -58,209 +79,135 @@ class ObjReader {
   }
 
  private:
-  struct Ignored {
-    std::string keyword;
-    int line;
+  struct Slot {
+    ObjPiece piece;
+    ObjPlace place;  // where it begins
+    bool failed = false;
   };
 
-  [[noreturn]] void fail(const std::string& message, int column) const {
-    throw MeshFileError(message, file_.line_number(), column, excerpt_of(text_));
-  }
-
-  void read_line(std::string_view line) {
-    if (file_.line_number() == 1) line = without_byte_order_mark(line);
-    while (!line.empty() && is_blank(line.back())) line.remove_suffix(1);
-    // A backslash joins the next line to the statement.
-    const bool joins = !line.empty() && line.back() == '\\';
-    if (joins) line.remove_suffix(1);
-    Words words(line);
-    text_ = line;
-    const bool comment = !open_ && begins_comment(line);
-    if (!open_) begin(words);
-    open_ = joins && !comment;
-    if (statement_ != Statement::other) {
-      for (std::string_view word = words.next(); !word.empty() && word.front() != '#';
-           word = words.next()) {
-        if (statement_ == Statement::face)
-          corner(words, word);
-        else
-          number(words, word);
+  void read(std::span<const std::string_view> texts) {
+    if (slots_.size() < texts.size()) slots_.resize(texts.size());
+    find_places(texts);
+    parallel_for(texts.size(), 1, [&](std::size_t i) {
+      Slot& slot = slots_[i];
+      try {
+        slot.place.triangles = place_.triangles;
+        slot.piece.read(texts[i], slot.place, max_triangles_);
+        slot.failed = false;
+      } catch (const MeshFileError&) {
+        slot.failed = true;
       }
+    });
+    for (std::size_t i = 0; i < texts.size(); ++i) {
+      Slot& slot = slots_[i];
+      slot.place.triangles = place_.triangles;
+      // What is told is the first error of the file, which may be too many triangles before that of
+      // the piece. They are counted only now.
+      if (slot.failed || place_.triangles + slot.piece.triangles > max_triangles_)
+        slot.piece.read(texts[i], slot.place, max_triangles_);
+      add(slot.piece);
+      place_.triangles += slot.piece.triangles;
     }
-    if (!open_) end();
   }
 
-  void begin(Words& words) {
-    const std::string_view keyword = words.next();
-    count_ = 0;
-    statement_ = keyword == "v"                      ? Statement::position
-                 : keyword == "vt"                   ? Statement::uv
-                 : keyword == "vn"                   ? Statement::normal
-                 : keyword == "f" || keyword == "fo" ? Statement::face
-                                                     : Statement::other;
-    if (statement_ != Statement::other || keyword.empty() || keyword.front() == '#') return;
-    if (keyword == "usemtl")
-      use_material(std::string(words.rest()));
-    else if (keyword == "mtllib")
-      result_.libraries.emplace_back(words.rest());
-    else if (std::find(std::begin(silent), std::end(silent), keyword) == std::end(silent))
-      ignore(keyword);
-  }
-
-  void ignore(std::string_view keyword) {
-    constexpr std::size_t enough = 4;
-    if (ignored_.size() >= enough) return;
-    keyword = keyword.substr(0, 40);
-    for (const Ignored& known : ignored_)
-      if (known.keyword == excerpt_of(keyword)) return;
-    ignored_.push_back({excerpt_of(keyword), file_.line_number()});
-  }
-
-  void use_material(const std::string& name) {
-    const auto [entry, is_new] =
-        materials_.emplace(name, static_cast<std::uint32_t>(result_.materials.size()));
-    if (is_new) result_.materials.push_back(name);
-    polygons_.runs.push_back({polygons_.face_sizes.size(), entry->second});
-  }
-
-  void end() {
-    switch (statement_) {
-      case Statement::position:
-        need(3);
-        polygons_.positions.emplace_back(numbers_[0], numbers_[1], numbers_[2]);
-        ++elements_[0].count;
-        break;
-      case Statement::uv:
-        need(1);
-        polygons_.uvs.emplace_back(numbers_[0], count_ > 1 ? numbers_[1] : 0);
-        ++elements_[1].count;
-        break;
-      case Statement::normal:
-        need(3);
-        polygons_.normals.emplace_back(numbers_[0], numbers_[1], numbers_[2]);
-        ++elements_[2].count;
-        break;
-      case Statement::face:
-        end_face();
-        break;
-      case Statement::other:
-        break;
+  void find_places(std::span<const std::string_view> texts) {
+    // Not the first line of the file, where a byte-order mark may be.
+    const ObjPlace elsewhere{.lines = 1, .line_end = place_.line_end};
+    parallel_for(texts.size(), 1, [&](std::size_t i) {
+      slots_[i].place = place_behind(texts[i], i == 0 ? place_ : elsewhere);
+    });
+    ObjPlace next = place_;
+    for (std::size_t i = 0; i < texts.size(); ++i) {
+      const ObjPlace behind = std::exchange(slots_[i].place, next);
+      if (i == 0) {
+        next = behind;
+        continue;
+      }
+      for (std::size_t e = 0; e < next.counts.size(); ++e) next.counts[e] += behind.counts[e];
+      next.lines += behind.lines - elsewhere.lines;
     }
-    statement_ = Statement::other;
+    place_ = next;
   }
 
-  void need(std::size_t least) const {
-    if (count_ >= least) return;
-    fail(std::to_string(least) + (least == 1 ? " number is" : " numbers are") + " needed, " +
-             std::to_string(count_) + " given",
-         1);
+  void add(const ObjPiece& piece) {
+    pieces_left_ -= std::min<std::uint64_t>(pieces_left_, 1);
+    for (const ObjPiece::MaterialUse& use : piece.material_uses) use_material(use);
+    for (std::size_t e : {1U, 2U}) numbers_[e - 1].add(piece, e, polygons_.all_corners());
+    append<Vec3>(piece.positions, polygons_.positions);
+    append<Vec2>(piece.uvs, polygons_.uvs);
+    append<Vec3>(piece.normals, polygons_.normals);
+    append_faces(piece);
+    for (std::size_t e = 0; e < early_.size(); ++e)
+      if (piece.early[e].number > early_[e].number) early_[e] = piece.early[e];
+    result_.libraries.insert(result_.libraries.end(), piece.libraries.begin(),
+                             piece.libraries.end());
+    for (const ObjPiece::Ignored& ignored : piece.ignored)
+      add_ignored(ignored_, ignored.keyword, ignored.line);
   }
 
-  void end_face() {
-    if (count_ == 0) fail("a face without corners", 1);
-    if (count_ < 3) {  // a point or a line
-      const std::size_t before = elements_[0].corners.size() - count_;
-      for (Elements& e : elements_) e.corners.resize(std::min(e.corners.size(), before));
+  void append_faces(const ObjPiece& piece) {
+    if (piece.face_sizes.size() == piece.triangles && polygons_.corners.empty()) {
+      const auto* const triangles = reinterpret_cast<const UVec3*>(piece.corners[0].data());
+      append<UVec3>({triangles, piece.face_sizes.size()}, polygons_.triangles);
       return;
     }
-    polygons_.face_sizes.push_back(static_cast<std::uint16_t>(count_));
-    triangles_ += count_ - 2;
-    if (triangles_ > max_triangles_)
-      fail("more than " + std::to_string(max_triangles_) + " triangles", 1);
-  }
-
-  void number(const Words& words, std::string_view word) {
-    float value = 0;
-    if (!read_float(word, value))
-      fail("'" + std::string(word.substr(0, 40)) + "' is not a finite number",
-           words.column_of(word));
-    // A weight or a color may follow.
-    if (count_ < 3) numbers_[count_] = value;
-    ++count_;
-  }
-
-  // i, i/j, i//k or i/j/k
-  void corner(const Words& words, std::string_view word) {
-    if (count_ == max_polygon_corners)
-      fail("a face of more than " + std::to_string(max_polygon_corners) + " corners", 1);
-    const char* at = word.data();
-    const char* const last = at + word.size();
-    for (Elements& e : elements_) {
-      const bool first = &e == &elements_[0];
-      bool given = first || at != last;
-      if (!first && given) {
-        if (*at++ != '/') bad_corner(words, word);
-        given = at != last && *at != '/';
-      }
-      std::uint32_t index = no_index;
-      if (given) {
-        std::int64_t number = 0;
-        const auto [end, error] = std::from_chars(at, last, number);
-        if (error != std::errc{} || number == 0) bad_corner(words, word);
-        at = end;
-        index = index_of(e, number, words.column_of(word));
-      }
-      const std::size_t corners = elements_[0].corners.size();
-      if (first || index != no_index || !e.corners.empty()) {
-        if (!first) e.corners.resize(corners - 1, no_index);
-        e.corners.push_back(index);
-      }
+    if (!polygons_.triangles.empty()) {
+      const std::span<const std::uint32_t> corners = polygons_.all_corners();
+      polygons_.corners.assign(corners.begin(), corners.end());
+      polygons_.face_sizes.assign(polygons_.triangles.size(), 3);
+      polygons_.triangles = {};
     }
-    if (at != last) bad_corner(words, word);
-    ++count_;
+    append<std::uint16_t>(piece.face_sizes, polygons_.face_sizes);
+    append<std::uint32_t>(piece.corners[0], polygons_.corners);
   }
 
-  // Numbers count from 1, or back from the last.
-  std::uint32_t index_of(Elements& e, std::int64_t number, int column) {
-    if (number < 0 && -number > e.count)
-      fail(std::to_string(number) + " counts back beyond the first " + e.name, column);
-    if (number < 0) number += e.count + 1;
-    if (number > e.count && number > e.highest) {
-      e.highest = number;
-      e.line = file_.line_number();
-      e.column = column;
-      e.excerpt = excerpt_of(text_);
-    }
-    return static_cast<std::uint32_t>(std::min<std::int64_t>(number - 1, no_index - 1));
+  // With room for as many again from each piece to come: growing takes longer than reading.
+  template <class T>
+  void append(std::span<const T> from, std::vector<T>& to) const {
+    if (to.capacity() < to.size() + from.size())
+      to.reserve(to.size() + from.size() + from.size() * pieces_left_);
+    to.insert(to.end(), from.begin(), from.end());
   }
 
-  [[noreturn]] void bad_corner(const Words& words, std::string_view word) const {
-    fail("'" + std::string(word.substr(0, 40)) + "' is not a corner of a face: numbers from 1 are",
-         words.column_of(word));
+  void use_material(const ObjPiece::MaterialUse& use) {
+    const auto [entry, is_new] = materials_.emplace(
+        std::string(use.name), static_cast<std::uint32_t>(result_.materials.size()));
+    if (is_new) result_.materials.emplace_back(use.name);
+    polygons_.runs.push_back({polygons_.faces() + use.first_face, entry->second});
   }
 
   void check_numbers() const {
-    for (const Elements& e : elements_)
-      if (e.highest > e.count)
-        throw MeshFileError("the file has " + std::to_string(e.count) + " " + e.name +
-                                (e.count == 1 ? "" : "s") + ", but a face uses number " +
-                                std::to_string(e.highest),
-                            e.line, e.column, e.excerpt);
+    for (std::size_t e = 0; e < early_.size(); ++e) {
+      const std::int64_t count = place_.counts[e];
+      if (early_[e].number > count)
+        throw MeshFileError("the file has " + std::to_string(count) + " " + obj_elements[e] +
+                                (count == 1 ? "" : "s") + ", but a face uses number " +
+                                std::to_string(early_[e].number),
+                            early_[e].line, early_[e].column, early_[e].excerpt);
+    }
   }
 
   // One vertex for each combination that corners use.
   void make_vertices() {
-    auto& [positions, uvs, normals] = elements_;
-    std::vector<std::uint32_t>& corners = positions.corners;
-    const bool plain = uvs.corners.empty() && normals.corners.empty();
-    if (plain) {
-      polygons_.uvs = {};
-      polygons_.normals = {};
-      polygons_.corners = std::move(corners);
+    const auto& [uvs, normals] = numbers_;
+    if (!uvs.own() && !normals.own()) {
+      // Every position is a vertex.
+      const std::size_t count = polygons_.positions.size();
+      polygons_.uvs.resize(uvs.none() ? 0 : count);
+      polygons_.normals.resize(normals.none() ? 0 : count);
       return;
     }
-    for (Elements* e : {&uvs, &normals})
-      if (!e->corners.empty()) e->corners.resize(corners.size(), no_index);
     // Those of a position are a chain; one that is too long to search gets doubles, which do no
     // harm.
     constexpr int most_links = 16;
     std::vector<std::uint32_t> first(polygons_.positions.size(), no_index);
     std::vector<std::uint32_t> next;
     std::vector<PolygonVertex>& vertices = polygons_.vertices;
+    const std::span<std::uint32_t> corners = polygons_.all_corners();
     for (std::size_t i = 0; i < corners.size(); ++i) {
-      const PolygonVertex wanted{corners[i], uvs.corners.empty() ? no_index : uvs.corners[i],
-                                 normals.corners.empty() ? no_index : normals.corners[i]};
-      std::uint32_t vertex = first[wanted.position];
+      const std::uint32_t position = corners[i];
+      const PolygonVertex wanted{position, uvs.at(i, position), normals.at(i, position)};
+      std::uint32_t vertex = first[position];
       bool known = false;
       for (int links = 0; vertex != no_index && links < most_links && !known; ++links) {
         known = vertices[vertex].uv == wanted.uv && vertices[vertex].normal == wanted.normal;
@@ -269,32 +216,30 @@ class ObjReader {
       if (!known) {
         vertex = static_cast<std::uint32_t>(vertices.size());
         vertices.push_back(wanted);
-        next.push_back(std::exchange(first[wanted.position], vertex));
+        next.push_back(std::exchange(first[position], vertex));
       }
       corners[i] = vertex;
     }
-    polygons_.corners = std::move(corners);
   }
 
-  FileReader file_;
+  StatementText text_;
+  std::uint64_t pieces_left_;  // about
   std::uint64_t max_triangles_;
-  std::uint64_t triangles_ = 0;
+  ObjPlace place_;  // where the text that is read next begins
+  std::vector<Slot> slots_;
   PolygonMesh polygons_;
+  std::array<CornerNumbers, 2> numbers_;  // of texture coordinates and normals
+  std::array<ObjPiece::Early, 3> early_;
   ObjFile result_;
   std::unordered_map<std::string, std::uint32_t> materials_;
-  std::vector<Ignored> ignored_;
-  Elements elements_[3] = {{"vertex position"}, {"texture coordinate"}, {"normal"}};
-  Statement statement_ = Statement::other;
-  bool open_ = false;      // the next line belongs to this statement
-  std::size_t count_ = 0;  // numbers or corners of the statement so far
-  float numbers_[3] = {};
-  std::string_view text_;  // the line at hand
+  std::vector<ObjPiece::Ignored> ignored_;
 };
 
 }  // namespace
 
-ObjFile read_obj(const std::filesystem::path& file, const MeshFileOptions& options) {
-  return ObjReader(file, options).read();
+ObjFile read_obj(const std::filesystem::path& file, const MeshFileOptions& options,
+                 std::size_t piece_bytes) {
+  return ObjReader(file, options, piece_bytes).read();
 }
 
 }  // namespace pah

@@ -17,7 +17,9 @@ struct ObjFile {
 };
 
 // Points, lines, groups, smoothing groups and colors are left out in silence, free-form curves and
-// surfaces with a warning. Throws MeshFileError, with line and column.
-[[nodiscard]] ObjFile read_obj(const std::filesystem::path& file, const MeshFileOptions& options);
+// surfaces with a warning. The file is read in pieces of about `piece_bytes`, several at once;
+// their size changes nothing. Throws MeshFileError, with line and column.
+[[nodiscard]] ObjFile read_obj(const std::filesystem::path& file, const MeshFileOptions& options,
+                               std::size_t piece_bytes = 1U << 17);
 
 }  // namespace pah

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <pah/io/mesh_file.hpp>
+#include <span>
 #include <vector>
 
 namespace pah {
@@ -27,6 +28,7 @@ struct PolygonMesh {
   std::vector<PolygonVertex> vertices;
   std::vector<std::uint32_t> corners;     // vertices of all faces, one face after the other
   std::vector<std::uint16_t> face_sizes;  // in corners: 3 to max_polygon_corners
+  std::vector<UVec3> triangles;           // all faces, instead of corners and face_sizes
 
   // Faces from `first_face` on, to the next run, are of `material`. None: all are of material 0.
   struct Run {
@@ -34,10 +36,22 @@ struct PolygonMesh {
     std::uint32_t material;
   };
   std::vector<Run> runs;
+
+  [[nodiscard]] std::size_t faces() const {
+    return triangles.empty() ? face_sizes.size() : triangles.size();
+  }
+  [[nodiscard]] std::size_t face_size(std::size_t face) const {
+    return triangles.empty() ? face_sizes[face] : 3;
+  }
+  // Those of `corners` or `triangles`.
+  [[nodiscard]] std::span<std::uint32_t> all_corners() {
+    if (triangles.empty()) return corners;
+    return {&triangles.front().x, 3 * triangles.size()};
+  }
 };
 
 // Triangles, with normals if `options` asks for the file's, as one mesh for each material that has
 // faces and a part for each mesh; as one of material 0 with `options.merged`.
-void make_meshes(const PolygonMesh& polygons, const MeshFileOptions& options, MeshFile& out);
+void make_meshes(PolygonMesh polygons, const MeshFileOptions& options, MeshFile& out);
 
 }  // namespace pah

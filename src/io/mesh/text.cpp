@@ -84,13 +84,6 @@ std::string_view without_byte_order_mark(std::string_view line) {
   return line.substr(0, 3) == "\xEF\xBB\xBF" ? line.substr(3) : line;
 }
 
-std::string_view Words::next() {
-  while (at_ < line_.size() && is_blank(line_[at_])) ++at_;
-  const std::size_t begin = at_;
-  while (at_ < line_.size() && !is_blank(line_[at_])) ++at_;
-  return line_.substr(begin, at_ - begin);
-}
-
 std::string_view Words::rest() const {
   std::string_view rest = line_.substr(at_);
   while (!rest.empty() && is_blank(rest.front())) rest.remove_prefix(1);

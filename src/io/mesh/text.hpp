@@ -6,13 +6,20 @@
 
 namespace pah {
 
+[[nodiscard]] inline bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
+
 // The words of one line.
 class Words {
  public:
   explicit Words(std::string_view line) : line_(line) {}
 
   // The next word; empty at the end of the line.
-  std::string_view next();
+  std::string_view next() {
+    while (at_ < line_.size() && is_blank(line_[at_])) ++at_;
+    const std::size_t begin = at_;
+    while (at_ < line_.size() && !is_blank(line_[at_])) ++at_;
+    return line_.substr(begin, at_ - begin);
+  }
   // All that is left, without blanks around it.
   [[nodiscard]] std::string_view rest() const;
   // From 1. The end of the line for an empty word.
@@ -22,8 +29,6 @@ class Words {
   std::string_view line_;
   std::size_t at_ = 0;
 };
-
-[[nodiscard]] inline bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
 
 // Whether the word is a decimal number that a float can hold, and the float nearest to it. What is
 // too small for one is 0.

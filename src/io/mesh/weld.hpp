@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <pah/scene/mesh.hpp>
 #include <vector>
 
@@ -14,13 +15,27 @@ struct VertexParts {
   bool colors = false;
 };
 
+struct VertexValues {
+  Vec3 position;
+  Vec3 normal{0};
+  Vec2 uv{0};
+  Vec3 color{1};
+};
+
+// For each of `count` vertices, the first that it is equal to, which may be itself. `values` is
+// called from several threads.
+[[nodiscard]] std::vector<std::uint32_t> first_equal_vertices(
+    std::uint32_t count, const std::function<VertexValues(std::uint32_t)>& values);
+
 class MeshBuilder {
  public:
-  MeshBuilder(const VertexParts& parts, std::size_t expected_triangles);
+  MeshBuilder(const VertexParts& parts, std::size_t expected_triangles,
+              std::size_t expected_vertices = 0);
 
   // The index of the vertex. What the mesh has none of is ignored.
-  std::uint32_t add_vertex(const Vec3& position, const Vec3& normal, const Vec2& uv,
-                           const Vec3& color = Vec3(1));
+  std::uint32_t add_vertex(const VertexValues& values);
+  // The index of the vertex, which none before is equal to.
+  std::uint32_t add_new_vertex(const VertexValues& values);
   void add_triangle(const UVec3& triangle) { mesh_.triangles.push_back(triangle); }
 
   [[nodiscard]] std::size_t vertices() const { return mesh_.positions.size(); }
@@ -34,6 +49,7 @@ class MeshBuilder {
 
   Mesh mesh_;
   VertexParts parts_;
+  std::size_t expected_triangles_;
   std::vector<std::uint32_t> table_;  // open addressing over a power of 2; vertex + 1, or 0
 };
 

@@ -1,0 +1,36 @@
+// The lines of an OBJ file's text, and the statements that they are of.
+#pragma once
+
+#include <string_view>
+
+namespace pah {
+
+enum class ObjStatement { other, position, uv, normal, face };
+
+[[nodiscard]] ObjStatement obj_statement(std::string_view keyword);
+
+class ObjLines {
+ public:
+  // `text` begins with a statement, behind `lines_before` others of its file.
+  ObjLines(std::string_view text, char line_end, int lines_before)
+      : left_(text), line_end_(line_end), number_(lines_before) {}
+
+  // False at the end of the text.
+  bool next();
+
+  // The line without blanks and what joins the next line to it at its end.
+  [[nodiscard]] std::string_view text() const { return text_; }
+  [[nodiscard]] int number() const { return number_; }   // from 1
+  [[nodiscard]] bool begins() const { return begins_; }  // a statement
+  [[nodiscard]] bool ends() const { return ends_; }
+
+ private:
+  std::string_view left_;
+  char line_end_;
+  int number_;
+  std::string_view text_;
+  bool begins_ = true;
+  bool ends_ = true;
+};
+
+}  // namespace pah
