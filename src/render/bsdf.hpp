@@ -1,76 +1,76 @@
-// How surfaces scatter light: a closed set of models over free functions.
-//
-// Directions are unit vectors in the local frame whose z is the shading normal, and point away from
-// the surface. For glass the normal tells outside (z > 0) from inside; everything else is opaque
-// and the same on both sides. Radiance is transported (light flows from wi to wo), so that glass
-// scales it by the squared ratio of the indices where it passes. Whether a direction is on the
-// right side of the geometry is the caller's to check.
+// How surfaces scatter light: free functions over a closed set of models (bsdf_types.hpp). Inline,
+// so that the most frequent model, which is the simplest, costs no more than it must.
 #pragma once
 
-#include <optional>
-#include <pah/geometry/vec.hpp>
-#include <variant>
+#include "render/bsdf_models.hpp"
 
 namespace pah {
 
-struct DiffuseBsdf {
-  Vec3 reflectance{0};
-};
+namespace models {
 
-struct MirrorBsdf {
-  Vec3 reflectance{1};
-};
+// w as the model wants it: opaque surfaces are seen from above.
+template <typename Model>
+[[nodiscard]] inline Vec3 turned(const Model& /*m*/, const Vec3& wo, const Vec3& w) {
+  return wo.z > 0 ? w : Vec3{w.x, w.y, -w.z};
+}
+[[nodiscard]] inline Vec3 turned(const GlassBsdf& /*m*/, const Vec3& /*wo*/, const Vec3& w) {
+  return w;
+}
 
-// GGX alpha of 0 stands for a smooth boundary, here and below.
-struct GlassBsdf {
-  float eta = 1.5F;  // inside over outside
-  float alpha = 0;
-  Vec3 reflectance{1};
-  Vec3 transmittance{1};
-};
-
-struct MetalBsdf {
-  Vec3 eta{0.2F};
-  Vec3 k{3};
-  float alpha = 0;
-  Vec3 tint{1};
-};
-
-// A specular layer over a diffuse base, for plastic and the principled model. The layer reflects
-// (1 - metallic) F_dielectric + metallic F_Schlick; the base is base T(wi) T(wo) / pi, where T is
-// what the dielectric lets through and `base` has been normalized for it (bsdf_coated.hpp).
-struct CoatedBsdf {
-  Vec3 base{0};
-  float eta = 1.5F;
-  float alpha = 0;
-  float metallic = 0;
-  Vec3 metal_f0{1};
-  Vec3 albedo{0};  // for the denoiser
-};
-
-using Bsdf = std::variant<DiffuseBsdf, MirrorBsdf, GlassBsdf, MetalBsdf, CoatedBsdf>;
-
-struct BsdfSample {
-  Vec3 wi{0, 0, 1};
-  Vec3 weight{0};             // f |cos wi| / pdf; of a delta lobe, over its probability
-  float pdf = 0;              // per solid angle, of all smooth lobes; 0 for a delta lobe
-  bool specular = false;      // drawn from a delta lobe
-  bool transmission = false;  // wi and wo lie on different sides
-};
+}  // namespace models
 
 // f |cos wi|; delta lobes are zero.
-[[nodiscard]] Vec3 evaluate(const Bsdf& bsdf, const Vec3& wo, const Vec3& wi);
+[[nodiscard]] inline Vec3 evaluate(const Bsdf& bsdf, const Vec3& wo, const Vec3& wi) {
+  if (wo.z == 0 || wi.z == 0) return Vec3{0};
+  return std::visit(
+      [&](const auto& m) {
+        return models::evaluate(m, models::turned(m, wo, wo), models::turned(m, wo, wi));
+      },
+      bsdf);
+}
 
 // The density per solid angle with which `sample` draws wi; delta lobes are zero, so it may
 // integrate to less than 1.
-[[nodiscard]] float pdf(const Bsdf& bsdf, const Vec3& wo, const Vec3& wi);
+[[nodiscard]] inline float pdf(const Bsdf& bsdf, const Vec3& wo, const Vec3& wi) {
+  if (wo.z == 0 || wi.z == 0) return 0;
+  return std::visit(
+      [&](const auto& m) {
+        return models::pdf(m, models::turned(m, wo, wo), models::turned(m, wo, wi));
+      },
+      bsdf);
+}
 
 // u chooses the lobe, u2 the direction. Nothing where all light is absorbed or the direction drawn
 // lies below the surface.
-[[nodiscard]] std::optional<BsdfSample> sample(const Bsdf& bsdf, const Vec3& wo, float u, Vec2 u2);
+[[nodiscard]] inline std::optional<BsdfSample> sample(const Bsdf& bsdf, const Vec3& wo, float u,
+                                                      Vec2 u2) {
+  if (wo.z == 0) return std::nullopt;
+  return std::visit(
+      [&](const auto& m) {
+        std::optional<BsdfSample> drawn = models::sample(m, models::turned(m, wo, wo), u, u2);
+        if (drawn) drawn->wi = models::turned(m, wo, drawn->wi);
+        if (drawn && drawn->wi.z == 0) drawn.reset();
+        return drawn;
+      },
+      bsdf);
+}
+
+// Whether `sample` looks at u.
+[[nodiscard]] inline bool chooses_lobe(const Bsdf& bsdf) {
+  return std::holds_alternative<GlassBsdf>(bsdf) || std::holds_alternative<CoatedBsdf>(bsdf);
+}
 
 // False if all lobes are delta: no light can then be connected to.
-[[nodiscard]] bool has_smooth_lobes(const Bsdf& bsdf);
+[[nodiscard]] inline bool has_smooth_lobes(const Bsdf& bsdf) {
+  struct SmoothLobes {
+    bool operator()(const DiffuseBsdf& /*m*/) const { return true; }
+    bool operator()(const MirrorBsdf& /*m*/) const { return false; }
+    bool operator()(const GlassBsdf& m) const { return m.alpha > 0; }
+    bool operator()(const MetalBsdf& m) const { return m.alpha > 0; }
+    bool operator()(const CoatedBsdf& m) const { return m.alpha > 0 || m.base != Vec3{0}; }
+  };
+  return std::visit(SmoothLobes{}, bsdf);
+}
 
 // An approximate color, for denoising.
 [[nodiscard]] Vec3 albedo(const Bsdf& bsdf);

@@ -67,49 +67,58 @@ float end_error(const Triangle& triangle, const SurfacePoint& point, const Vec3&
   return glm::dot(glm::abs(point.normal), point.error) + rounding_bound(2 * 2 * (5 + 3)) * farthest;
 }
 
-LightSample toward_point(const Vec3& position, const Vec3& from, const Vec3& intensity) {
+// Samples are made where they are returned: what is copied right after it was written is waited
+// for.
+std::optional<LightSample> toward_point(const Vec3& position, const Vec3& from,
+                                        const Vec3& intensity) {
   const Vec3 to_light = position - from;
   const float distance2 = glm::dot(to_light, to_light);
-  LightSample sample;
+  std::optional<LightSample> made(std::in_place);
+  if (!(distance2 > 0)) {
+    made.reset();
+    return made;
+  }
+  LightSample& sample = *made;
   sample.radiance = intensity / distance2;
   sample.direction = to_light / std::sqrt(distance2);
   sample.pdf = 1;
   sample.delta = true;
   sample.target = position;
   sample.target_error = rounding_bound(7) * glm::length(position);
-  return sample;
+  return made;
 }
 
-LightSample toward_infinity(const Vec3& radiance, const Vec3& direction, float pdf) {
-  LightSample sample;
+std::optional<LightSample> toward_infinity(const Vec3& radiance, const Vec3& direction, float pdf) {
+  std::optional<LightSample> made(std::in_place);
+  LightSample& sample = *made;
   sample.radiance = radiance;
   sample.direction = direction;
   sample.pdf = pdf;
   sample.distant = true;
-  return sample;
+  return made;
 }
 
 std::optional<LightSample> sample_light(const PointEmitter& emitter, const LitPoint& at) {
-  if (emitter.position == at.position) return std::nullopt;
   return toward_point(emitter.position, at.position, emitter.intensity);
 }
 
 std::optional<LightSample> sample_light(const SpotEmitter& emitter, const LitPoint& at) {
-  if (emitter.position == at.position) return std::nullopt;
-  LightSample sample = toward_point(emitter.position, at.position, emitter.intensity);
-  const float cosine = -glm::dot(sample.direction, emitter.axis);
-  if (cosine < emitter.cos_outer) return std::nullopt;
-  if (cosine < emitter.cos_inner) {
-    sample.radiance *= glm::smoothstep(emitter.cos_outer, emitter.cos_inner, cosine);
+  auto made = toward_point(emitter.position, at.position, emitter.intensity);
+  if (!made) return made;
+  const float cosine = -glm::dot(made->direction, emitter.axis);
+  if (cosine < emitter.cos_outer) {
+    made.reset();
+  } else if (cosine < emitter.cos_inner) {
+    made->radiance *= glm::smoothstep(emitter.cos_outer, emitter.cos_inner, cosine);
   }
-  return sample;
+  return made;
 }
 
 std::optional<LightSample> sample_light(const DirectionalEmitter& emitter, const Vec2& u2) {
   if (emitter.one_minus_cos == 0) {
-    LightSample sample = toward_infinity(emitter.irradiance, emitter.axis, 1);
-    sample.delta = true;
-    return sample;
+    auto made = toward_infinity(emitter.irradiance, emitter.axis, 1);
+    made->delta = true;
+    return made;
   }
   const Vec3 local = sample_uniform_cone(u2, emitter.one_minus_cos);
   return toward_infinity(emitter.radiance, make_frame(emitter.axis).world_from_local(local),
@@ -327,11 +336,15 @@ std::optional<LightSample> Lights::sample_area(const AreaEmitter& emitter, const
 
   const Vec3 to_light = point.position - at.position;
   const float distance2 = glm::dot(to_light, to_light);
-  if (!(distance2 > 0)) return std::nullopt;
-  LightSample sample;
-  sample.direction = to_light / std::sqrt(distance2);
-  const float cosine = -glm::dot(sample.direction, point.normal);
-  if (cosine == 0 || (cosine < 0 && !emitter.two_sided)) return std::nullopt;
+  const Vec3 direction = to_light / std::sqrt(distance2);
+  const float cosine = -glm::dot(direction, point.normal);
+  std::optional<LightSample> made(std::in_place);
+  if (!(distance2 > 0) || cosine == 0 || (cosine < 0 && !emitter.two_sided)) {
+    made.reset();
+    return made;
+  }
+  LightSample& sample = *made;
+  sample.direction = direction;
   sample.radiance = emitter.radiance.value;
   if (emitter.radiance.texture != no_texture)
     sample.radiance = textures_.color(emitter.radiance, uv_at(world_, from.index, b));
@@ -343,7 +356,7 @@ std::optional<LightSample> Lights::sample_area(const AreaEmitter& emitter, const
   sample.target_error = end_error(triangle, point, at.position) / std::abs(cosine);
   sample.triangle = from.index;
   sample.barycentrics = b;
-  return sample;
+  return made;
 }
 
 std::optional<LightSample> Lights::sample(LightId light, const LitPoint& at, float u,

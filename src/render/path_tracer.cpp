@@ -8,17 +8,18 @@
 
 namespace pah {
 
-// A surface as its material makes it at one point, seen from one direction.
+// A surface as its material makes it at one point, seen from one direction. It is made in place:
+// what is copied right after it was written is waited for.
 struct Scattering {
   Bsdf bsdf;
   ShadingFrame frame;
-  Vec3 wo{0};           // in the frame
-  Vec3 world_wo{0};     // towards where the path came from
-  bool smooth = false;  // some lobe is no delta
-  bool tilted = false;  // the shading normal is not the surface's own
-  SurfacePoint from;    // where light is scattered,
-  bool lifted = false;  // off the facet, which may then be passed;
-  Vec3 surface{0};      // the surface's own normal: that of the facet or of what it stands for
+  Vec3 wo;            // in the frame
+  Vec3 world_wo;      // towards where the path came from
+  bool smooth;        // some lobe is no delta
+  bool tilted;        // the shading normal is not the surface's own
+  bool lifted;        // light is scattered off the facet, which may then be passed
+  SurfacePoint from;  // where light is scattered
+  Vec3 surface;       // the surface's own normal: that of the facet or of what it stands for
   LitPoint lit;
 
   // Whether the normals agree on what is reflected and what passes through.
@@ -69,12 +70,9 @@ Scattering scatter_at(const World& world, const TextureStore& textures, const Hi
   const Material& material = world.materials[at.surface->material];
   // Light that passes through must start at the facet, lest it meet it again.
   const bool curved = at.curved && !std::holds_alternative<GlassMaterial>(material.model);
-  Scattering s;
   const float lift = curved ? at.lift(wo) : 0;
-  s.lifted = lift != 0;
-  s.from = s.lifted ? lifted_point(at, lift) : at.point;
-  s.surface = curved ? visible_normal(at.normal, at.point.normal, wo) : at.point.normal;
-  Vec3 normal = curved ? s.surface : at.normal;
+  const Vec3 surface = curved ? visible_normal(at.normal, at.point.normal, wo) : at.point.normal;
+  Vec3 normal = curved ? surface : at.normal;
   bool tilted = at.smooth && !curved;
   if (material.normal_map != no_texture) {
     Vec3 mapped = mapped_normal(material, textures, at.uv, footprint);
@@ -84,15 +82,23 @@ Scattering scatter_at(const World& world, const TextureStore& textures, const Hi
   }
   if (tilted) normal = visible_normal(normal, at.point.normal, wo);
 
-  s.bsdf = resolve_material(material, textures, at.uv, footprint,
-                            material.vertex_colors ? vertex_color_at(world, hit) : Vec3(1));
-  s.frame = make_frame(normal);
-  s.world_wo = wo;
-  s.wo = s.frame.local_from_world(wo);
+  const ShadingFrame frame = make_frame(normal);
+  const Vec3 local_wo = frame.local_from_world(wo);
+  const SurfacePoint from = lift != 0 ? lifted_point(at, lift) : at.point;
+  Scattering s{
+      .bsdf = resolve_material(material, textures, at.uv, footprint,
+                               material.vertex_colors ? vertex_color_at(world, hit) : Vec3(1)),
+      .frame = frame,
+      .wo = local_wo,
+      .world_wo = wo,
+      .smooth = false,
+      .tilted = tilted,
+      .lifted = lift != 0,
+      .from = from,
+      .surface = surface,
+      .lit = {from.position, local_wo.z < 0 ? -normal : normal, false}};
   s.smooth = has_smooth_lobes(s.bsdf);
-  s.tilted = tilted;
-  s.lit = {s.from.position, s.wo.z < 0 ? -normal : normal,
-           std::holds_alternative<GlassBsdf>(s.bsdf)};
+  s.lit.transmits = std::holds_alternative<GlassBsdf>(s.bsdf);
   return s;
 }
 
@@ -107,6 +113,7 @@ PathTracer::PathTracer(const World& world, const Accelerator& accelerator,
       settings_(settings),
       camera_(world.camera, film),
       lights_(world, textures),
+      textured_(!world.textures.empty()),
       keys_(static_cast<std::uint32_t>(std::clamp<std::size_t>(lights_.size(), 1, most_keys))),
       count_traversal_(count_traversal) {
   for (const Material& material : world.materials) {
@@ -187,7 +194,7 @@ bool PathTracer::shade_path(Path& path, Ray& ray, const Hit& hit, PathBatch& bat
   const SurfaceInteraction at = interact(world_, hit);
   path.cone_width += path.cone_spread * hit.t;
   if (path.depth == 0) path.length += hit.t;
-  const float footprint = footprint_on(at, ray.direction, path.cone_width);
+  const float footprint = textured_ ? footprint_on(at, ray.direction, path.cone_width) : 0;
 
   if (any_masked_ && masked_[at.surface->material] != 0) {
     const float stopped =
@@ -248,7 +255,7 @@ void PathTracer::gather_shadow(Path& path, const Scattering& scattering, PathBat
   if (lights_.sampler().empty()) return;
   const float u_choice = lights_.sampler().only() == no_light ? path.sampler.next_1d() : 0;
   const auto choice = lights_.sampler().choose(scattering.lit, u_choice);
-  const float u = path.sampler.next_1d();
+  const float u = path.sampler.next_1d_if(choice && lights_.chooses_triangle(choice->light));
   const Vec2 u2 = path.sampler.next_2d();
   if (!choice) return;
   const auto drawn = lights_.sample(choice->light, scattering.lit, u, u2);
@@ -286,7 +293,7 @@ void PathTracer::gather_shadow(Path& path, const Scattering& scattering, PathBat
 }
 
 bool PathTracer::scatter(Path& path, Ray& ray, const Scattering& scattering) const {
-  const float u = path.sampler.next_1d();
+  const float u = path.sampler.next_1d_if(chooses_lobe(scattering.bsdf));
   const Vec2 u2 = path.sampler.next_2d();
   const auto drawn = sample(scattering.bsdf, scattering.wo, u, u2);
   if (!drawn) return false;
@@ -311,7 +318,7 @@ bool PathTracer::scatter(Path& path, Ray& ray, const Scattering& scattering) con
   }
   // A scattered ray stands for the directions near it: a quarter of the angle that its density
   // spans, as seen from the surface.
-  if (!drawn->specular) {
+  if (textured_ && !drawn->specular) {
     path.cone_spread += 0.25F / std::sqrt(std::numbers::pi_v<float> * drawn->pdf);
   }
   if (path.depth >= settings_.roulette_depth) {

@@ -58,6 +58,7 @@ class PathTracer {
   Lights lights_;
   std::vector<std::uint8_t> masked_;  // per material: opacity is not simply 1
   bool any_masked_ = false;
+  bool textured_;           // some picture wants to know how much of it a ray sees
   std::uint32_t keys_ = 1;  // of the sort by bundle
   bool count_traversal_;
 };

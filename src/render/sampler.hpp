@@ -27,6 +27,12 @@ class Sampler {
     const std::uint32_t digits = laine_karras(shuffled_index(low(key)), high(key));
     return fraction(reverse_bits(digits));
   }
+  // The same dimension, left out if nobody wants it.
+  [[nodiscard]] float next_1d_if(bool wanted) {
+    if (wanted) return next_1d();
+    ++dimension_;
+    return 0;
+  }
   [[nodiscard]] Vec2 next_2d() {
     const std::uint64_t key = mix_bits(stream_ + dimension_++);
     const std::uint64_t key_y = mix_bits(key);

@@ -1,14 +1,8 @@
 #include "render/shading_frame.hpp"
 
 #include <cmath>
-#include <pah/geometry/basis.hpp>
 
 namespace pah {
-
-ShadingFrame make_frame(const Vec3& n) {
-  const glm::mat3 basis = basis_about(n);
-  return {basis[0], basis[1], n};
-}
 
 ShadingFrame make_frame(const Vec3& normal, const Vec3& tangent) {
   const float length = glm::length(tangent);

@@ -1,7 +1,7 @@
 // Orthonormal bases about a normal.
 #pragma once
 
-#include <pah/geometry/vec.hpp>
+#include <pah/geometry/basis.hpp>
 
 namespace pah {
 
@@ -16,7 +16,10 @@ struct ShadingFrame {
 };
 
 // A basis about a unit normal, continuous but at z = 0 (Duff et al., JCGT 6(1), 2017).
-[[nodiscard]] ShadingFrame make_frame(const Vec3& normal);
+[[nodiscard]] inline ShadingFrame make_frame(const Vec3& normal) {
+  const glm::mat3 basis = basis_about(normal);
+  return {basis[0], basis[1], normal};
+}
 
 // The basis whose x is as near as possible to `tangent`, of any length. Where the two are parallel
 // or the tangent is zero or not finite: as above.
