@@ -48,6 +48,14 @@ float power_heuristic(float own, float other) {
   return 1 / (1 + ratio * ratio);
 }
 
+// Field by field: a copy as a whole would wait for the fields, which are hardly written.
+void assign(Ray& to, const Ray& from) {
+  to.origin = from.origin;
+  to.t_max = from.t_max;
+  to.direction = from.direction;
+  to.bundle = from.bundle;
+}
+
 bool acceptable(const Vec3& color) {
   const float sum = color.x + color.y + color.z;
   return sum < std::numeric_limits<float>::infinity() && color.x >= 0 && color.y >= 0 &&
@@ -283,11 +291,11 @@ void PathTracer::gather_shadow(Path& path, const Scattering& scattering, PathBat
   batch.shadow_tasks[batch.shadows] = {contribution, path.slot};
   if (drawn->distant) {
     Ray& ray = batch.shadow_rays[batch.shadows];
-    ray = spawn_ray(scattering.from, drawn->direction, side);
+    assign(ray, spawn_ray(scattering.from, drawn->direction, side));
     ray.bundle = choice->light;
   } else {
-    batch.shadow_rays[batch.shadows] =
-        spawn_segment(scattering.from, drawn->target, drawn->target_error, choice->light, side);
+    assign(batch.shadow_rays[batch.shadows],
+           spawn_segment(scattering.from, drawn->target, drawn->target_error, choice->light, side));
   }
   ++batch.shadows;
 }
@@ -329,7 +337,7 @@ bool PathTracer::scatter(Path& path, Ray& ray, const Scattering& scattering) con
       path.throughput /= survival;
     }
   }
-  ray = spawn_ray(scattering.from, direction, scattering.side(direction, drawn->wi));
+  assign(ray, spawn_ray(scattering.from, direction, scattering.side(direction, drawn->wi)));
   return true;
 }
 
