@@ -5,6 +5,11 @@ include(CMakePackageConfigHelpers)
 
 set_target_properties(pah_io PROPERTIES EXPORT_NAME io)
 install(TARGETS pahrender)
+install(TARGETS pahrender_pictures DESTINATION ${CMAKE_INSTALL_LIBDIR}/pahrender)
+file(RELATIVE_PATH from_program ${CMAKE_INSTALL_FULL_BINDIR}
+  ${CMAKE_INSTALL_FULL_LIBDIR}/pahrender)
+set_target_properties(pahrender PROPERTIES
+  BUILD_WITH_INSTALL_RPATH ON INSTALL_RPATH "$ORIGIN;$ORIGIN/${from_program}")
 install(TARGETS pah pah_io EXPORT pahrenderTargets)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/pah DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 install(FILES ${PROJECT_SOURCE_DIR}/scenes/pahrender.schema.json

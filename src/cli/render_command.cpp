@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <future>
 #include <optional>
 #include <pah/image/clipping.hpp>
 #include <pah/io/image_file.hpp>
@@ -23,6 +24,7 @@
 #include "cli/summary.hpp"
 #include "cli/warnings.hpp"
 #include "io/extension.hpp"
+#include "io/image_library.hpp"
 #include "io/output_file.hpp"
 #include "report/area_warnings.hpp"
 #include "report/stats.hpp"
@@ -133,11 +135,18 @@ bool is_same_file(const fs::path& a, const fs::path& b) {
          fs::weakly_canonical(fs::absolute(b), error);
 }
 
-// `spent` seconds of the time limit are gone. `saving` begins with the first samples: until then
-// there is nothing that an interrupt should wait for.
+// Once the task has failed, throws what it threw.
+void rethrow_failure(const std::shared_future<void>& task) {
+  if (task.wait_for(std::chrono::seconds(0)) == std::future_status::ready) task.get();
+}
+
+// `spent` seconds of the time limit are gone. Ends early if `loading`, of what will write the
+// picture, fails. `saving` begins with the first samples: until then there is nothing that an
+// interrupt should wait for.
 RenderResult render_with_progress(const World& world, const Accelerator& accelerator,
                                   const Scene& scene, const RenderArguments& arguments,
-                                  double spent, std::optional<SavingOnInterrupt>& saving) {
+                                  double spent, const std::shared_future<void>& loading,
+                                  std::optional<SavingOnInterrupt>& saving) {
   RenderOptions options;
   options.threads = arguments.threads;
   // 0 would be none.
@@ -149,6 +158,7 @@ RenderResult render_with_progress(const World& world, const Accelerator& acceler
   if (!arguments.quiet && can_redraw()) bar.emplace(goal);
   Heartbeat heartbeat(goal);
   options.on_progress = [&](const Progress& progress) {
+    rethrow_failure(loading);
     if (!saving) saving.emplace();
     if (bar)
       bar->show(progress);
@@ -210,6 +220,9 @@ ExitCode run_render(const RenderArguments& arguments) {
   scene.meshes = {};
   scene.instances = {};
 
+  // Takes half a second, beside the work: on a thread of its own if there is one to be had.
+  const std::shared_future<void> loading = std::async(load_image_library).share();
+
   RenderReport report;
   report.seconds.load = total.seconds();
   const Stopwatch building;
@@ -221,7 +234,7 @@ ExitCode run_render(const RenderArguments& arguments) {
 
   std::optional<SavingOnInterrupt> saving;
   const RenderResult result = render_with_progress(world, *acceleration.accelerator, scene,
-                                                   arguments, total.seconds(), saving);
+                                                   arguments, total.seconds(), loading, saving);
   const bool interrupted = stop_requested() && !result.complete;
   // Less than one sample for every pixel is better than nothing, but not than what there was.
   std::error_code ignored;

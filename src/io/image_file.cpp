@@ -9,7 +9,7 @@
 #include <string_view>
 
 #include "image/srgb.hpp"
-#include "io/extension.hpp"
+#include "io/image_format.hpp"
 #include "io/output_file.hpp"
 #include "scene/texture_file.hpp"
 
@@ -18,47 +18,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-enum class Encoding {
-  png,   // 8- or 16-bit sRGB, exposed and clamped to [0, 1]
-  jpeg,  // 8-bit sRGB, likewise
-  tiff,  // linear, 32-bit floats
-  rgbe,  // linear, not negative, a shared exponent
-  exr    // linear, 16- or 32-bit floats, any number of layers
-};
-
-struct Format {
-  const char* extension;
-  Encoding encoding;
-};
-
-constexpr Format formats[] = {{".png", Encoding::png},   {".jpg", Encoding::jpeg},
-                              {".jpeg", Encoding::jpeg}, {".tif", Encoding::tiff},
-                              {".tiff", Encoding::tiff}, {".hdr", Encoding::rgbe},
-                              {".exr", Encoding::exr}};
-
 [[noreturn]] void fail_to_read(const fs::path& file, const std::string& why) {
   throw FileError("cannot read " + file.string() + ": " + why);
-}
-
-[[noreturn]] void fail_to_write(const fs::path& file, const std::string& why) {
-  throw FileError("cannot write " + file.string() + ": " + why);
 }
 
 std::string or_unknown(std::string message) {
   if (message.empty()) return "unknown error";
   return message;
-}
-
-const Format& format_of(const fs::path& file) {
-  const std::string extension = lower_extension(file);
-  for (const Format& format : formats)
-    if (extension == format.extension) return format;
-  std::string available;
-  for (const Format& format : formats)
-    available += (available.empty() ? "" : ", ") + std::string(format.extension);
-  fail_to_write(file, (extension.empty() ? "the name has no extension"
-                                         : "unknown picture format '" + extension + "'") +
-                          "; available are " + available);
 }
 
 // Into [low, high]; what is not a number becomes low.
@@ -204,25 +170,9 @@ Channels channels_of(const OIIO::ImageSpec& spec) {
 
 }  // namespace
 
-const std::vector<std::string>& image_extensions() {
-  static const std::vector<std::string> extensions = [] {
-    std::vector<std::string> list;
-    for (const Format& format : formats) list.emplace_back(format.extension);
-    return list;
-  }();
-  return extensions;
-}
-
-void check_writable(const fs::path& file) {
-  // Its writer goes back and forth, which neither a device nor a pipe does.
-  if (format_of(file).encoding == Encoding::tiff && is_device(file))
-    fail_to_write(file, "a TIFF file cannot go to a device");
-  check_can_create(file);
-}
-
 void write_image(const fs::path& file, const std::vector<ImageLayer>& layers,
                  const WriteOptions& options) {
-  const Format& format = format_of(file);
+  const Encoding encoding = encoding_of(file);
   require_layers(layers);
   if (options.png_bits != 8 && options.png_bits != 16)
     throw std::invalid_argument("a PNG file has 8 or 16 bits");
@@ -230,11 +180,10 @@ void write_image(const fs::path& file, const std::vector<ImageLayer>& layers,
   OIIO::Filesystem::IOVecOutput proxy(bytes);  // outlives the output, which may write when it ends
   const auto out = OIIO::ImageOutput::create(file.filename().string());
   if (!out) fail_to_write(file, or_unknown(OIIO::geterror()));
-  if (format.encoding == Encoding::tiff)
-    return write_by_file(file, *out, format.encoding, layers, options);
+  if (encoding == Encoding::tiff) return write_by_file(file, *out, encoding, layers, options);
   // In memory first: not every encoder notices a full disk.
   out->set_ioproxy(&proxy);
-  encode(file, file.filename().string(), *out, format.encoding, layers, options);
+  encode(file, file.filename().string(), *out, encoding, layers, options);
   write_text_file(file, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
 }
 

@@ -29,6 +29,7 @@ const std::vector<Floor> floors{
     {"io/mesh", {}, {"scene/", "pah/render/", "render/"}},  // scene's public values only
     {"io/scene", {"io/yaml", "io/mesh"}, {}},
     {"report/study", {}, {}},
+    {"cli/pictures", {}, {}},
 };
 // Public headers stay in their module's folder, and belong to the floor that they open.
 const std::map<std::string, std::string, std::less<>> floors_of_headers{

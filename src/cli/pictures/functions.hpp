@@ -1,0 +1,25 @@
+// The functions that need OpenImageIO. Debian's brings 250 libraries, which take longer to load
+// than many a scene to render: the program loads them when it first needs a picture, with the
+// module that holds these.
+#pragma once
+
+#include <pah/io/image_file.hpp>
+
+#include "io/image_header.hpp"
+#include "scene/texture_images.hpp"
+
+namespace pah::cli {
+
+struct PictureFunctions {
+  decltype(&pah::write_image) write_image;
+  decltype(&pah::read_image) read_image;
+  decltype(&pah::read_image_header) read_image_header;
+  decltype(&pah::check_image_file) check_image_file;
+  decltype(&pah::read_first_channel) read_first_channel;
+  decltype(&pah::make_texture_images) make_texture_images;
+};
+
+// What the module defines.
+inline constexpr const char* picture_functions_name = "pahrender_picture_functions";
+
+}  // namespace pah::cli

@@ -1,0 +1,6 @@
+// The module's side: the functions as the libraries define them.
+#include "cli/pictures/functions.hpp"
+
+extern "C" const pah::cli::PictureFunctions pahrender_picture_functions{
+    &pah::write_image,      &pah::read_image,         &pah::read_image_header,
+    &pah::check_image_file, &pah::read_first_channel, &pah::make_texture_images};

@@ -1,0 +1,7 @@
+#include "io/image_library.hpp"
+
+namespace pah {
+
+void load_image_library() {}
+
+}  // namespace pah

@@ -1,0 +1,30 @@
+// What reads and writes pictures is loaded when it is needed.
+#include <sys/wait.h>
+
+#include <cstdlib>
+#include <filesystem>
+
+#include "catch.hpp"
+#include "program.hpp"
+#include "support/paths.hpp"
+#include "support/temporary_folder.hpp"
+
+using namespace pah::testing;
+using pah::CurrentTemporaryFolder;
+
+namespace fs = std::filesystem;
+
+TEST_CASE("the program starts without OpenImageIO") {
+  CHECK_FALSE(contains(read_file(pah::test::program()), "libOpenImageIO"));
+}
+
+TEST_CASE("without its module the program says so rather than render") {
+  const CurrentTemporaryFolder folder;
+  fs::copy_file(pah::test::program(), "pahrender");
+  write_file("scene.yaml", small_scene);
+  const int status = std::system("./pahrender scene.yaml 2> err");
+  CHECK(WEXITSTATUS(status) == 4);
+  CHECK(contains(read_file("err"),
+                 "cannot load what reads and writes pictures: libpahrender_pictures"));
+  CHECK_FALSE(fs::exists("scene.png"));
+}
