@@ -1,5 +1,10 @@
 #include "render/light_importance.hpp"
 
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "render/light_importance.cpp"
+#include <hwy/foreach_target.h>
+// foreach_target.h comes first.
+#include <hwy/highway.h>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -7,50 +12,32 @@
 
 #include "render/spawn.hpp"
 
+HWY_BEFORE_NAMESPACE();
 namespace pah {
+namespace HWY_NAMESPACE {
 namespace {
-
-constexpr float pi = std::numbers::pi_v<float>;
 
 // Leaves room to sum many of them.
 constexpr float largest_importance = 1e30F;
 
 // By value and without a branch, so that loops over them are compiled to vectors.
-float larger(float a, float b) { return a < b ? b : a; }
-float sine_of(float cosine) { return std::sqrt(larger(0.0F, 1 - cosine * cosine)); }
+HWY_INLINE float larger(float a, float b) { return a < b ? b : a; }
+HWY_INLINE float sine_of(float cosine) { return std::sqrt(larger(0.0F, 1 - cosine * cosine)); }
 
 // The cosine of max(0, a - b), and its sine, of angles in [0, pi].
-float cos_of_difference(float sin_a, float cos_a, float sin_b, float cos_b) {
+HWY_INLINE float cos_of_difference(float sin_a, float cos_a, float sin_b, float cos_b) {
   const float cosine = cos_a * cos_b + sin_a * sin_b;
   return cos_a > cos_b ? 1 : cosine;
 }
-float sin_of_difference(float sin_a, float cos_a, float sin_b, float cos_b) {
+HWY_INLINE float sin_of_difference(float sin_a, float cos_a, float sin_b, float cos_b) {
   const float sine = sin_a * cos_b - cos_a * sin_b;
   return cos_a > cos_b ? 0 : sine;
 }
 
-}  // namespace
-
-void pack(const LightBounds& bounds, std::size_t index, std::span<float> packed) {
-  const Vec3 center = bounds.box.center(), half = 0.5F * bounds.box.extent();
-  const std::array<float, packed_size> numbers{center.x,
-                                               center.y,
-                                               center.z,
-                                               glm::dot(half, half),
-                                               bounds.axis.x,
-                                               bounds.axis.y,
-                                               bounds.axis.z,
-                                               bounds.cos_theta_o,
-                                               sine_of(bounds.cos_theta_o),
-                                               bounds.cos_theta_e,
-                                               bounds.intensity,
-                                               bounds.two_sided ? 1.0F : 0.0F};
-  const std::size_t count = packed.size() / packed_size;
-  for (std::size_t i = 0; i < packed_size; ++i) packed[i * count + index] = numbers[i];
-}
-
-// In scalars, and all of it computed before it is chosen from: this is compiled to vectors.
-void importances(std::span<const float> packed, const LitPoint& at, float* __restrict of_each) {
+// In scalars, and all of it computed before it is chosen from: this is compiled to vectors, and
+// once for each instruction set.
+void importances_kernel(std::span<const float> packed, const LitPoint& at,
+                        float* __restrict of_each) {
   const std::size_t count = packed.size() / packed_size;
   const float* numbers = packed.data();
   const float *center_x = numbers, *center_y = numbers + count, *center_z = numbers + 2 * count,
@@ -93,6 +80,44 @@ void importances(std::span<const float> packed, const LitPoint& at, float* __res
   }
 }
 
+}  // namespace
+}  // namespace HWY_NAMESPACE
+}  // namespace pah
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace pah {
+
+namespace {
+
+HWY_EXPORT(importances_kernel);
+
+constexpr float pi = std::numbers::pi_v<float>;
+
+}  // namespace
+
+void pack(const LightBounds& bounds, std::size_t index, std::span<float> packed) {
+  const Vec3 center = bounds.box.center(), half = 0.5F * bounds.box.extent();
+  const std::array<float, packed_size> numbers{center.x,
+                                               center.y,
+                                               center.z,
+                                               glm::dot(half, half),
+                                               bounds.axis.x,
+                                               bounds.axis.y,
+                                               bounds.axis.z,
+                                               bounds.cos_theta_o,
+                                               HWY_NAMESPACE::sine_of(bounds.cos_theta_o),
+                                               bounds.cos_theta_e,
+                                               bounds.intensity,
+                                               bounds.two_sided ? 1.0F : 0.0F};
+  const std::size_t count = packed.size() / packed_size;
+  for (std::size_t i = 0; i < packed_size; ++i) packed[i * count + index] = numbers[i];
+}
+
+void importances(std::span<const float> packed, const LitPoint& at, float* __restrict of_each) {
+  HWY_DYNAMIC_DISPATCH(importances_kernel)(packed, at, of_each);
+}
+
 float importance(const LightBounds& bounds, const LitPoint& at) {
   std::array<float, packed_size> packed{};
   pack(bounds, 0, packed);
@@ -109,8 +134,10 @@ float importance(const DistantBounds& bounds, const LitPoint& at) {
   if (bounds.everywhere) return bounds.irradiance;
   float cos_i = glm::dot(bounds.axis, at.normal);
   if (at.transmits) cos_i = std::abs(cos_i);
-  const float cosine = cos_of_difference(sine_of(cos_i), cos_i, bounds.sin_angle, bounds.cos_angle);
+  const float cosine = HWY_NAMESPACE::cos_of_difference(HWY_NAMESPACE::sine_of(cos_i), cos_i,
+                                                        bounds.sin_angle, bounds.cos_angle);
   return std::max(0.0F, cosine) * bounds.irradiance;
 }
 
 }  // namespace pah
+#endif
