@@ -117,7 +117,7 @@ std::optional<LightSample> sample_light(const SpotEmitter& emitter, const LitPoi
 std::optional<LightSample> sample_light(const DirectionalEmitter& emitter, const Vec2& u2) {
   if (emitter.one_minus_cos == 0) {
     auto made = toward_infinity(emitter.irradiance, emitter.axis, 1);
-    made->delta = true;
+    if (made) made->delta = true;
     return made;
   }
   const Vec3 local = sample_uniform_cone(u2, emitter.one_minus_cos);

@@ -50,7 +50,7 @@ const std::vector<ThirdParty> third_parties{
     {"CLI/", {"src/cli/"}},
     {"embree3/", {"src/accel/"}},
     {"embree4/", {"src/accel/"}},
-    {"hwy/", {"src/geometry/", "src/bvh/", "src/accel/"}},
+    {"hwy/", {"src/geometry/", "src/bvh/", "src/accel/", "src/render/"}},
 };
 // The operating system's headers: <unistd.h>, <sys/resource.h>.
 const std::vector<std::string_view> system_header_users{"src/io/", "src/report/", "src/cli/"};

@@ -132,7 +132,7 @@ class ObjReader {
   void add(const ObjPiece& piece) {
     pieces_left_ -= std::min<std::uint64_t>(pieces_left_, 1);
     for (const ObjPiece::MaterialUse& use : piece.material_uses) use_material(use);
-    for (std::size_t e : {1U, 2U}) numbers_[e - 1].add(piece, e, polygons_.all_corners());
+    for (const std::size_t e : {1U, 2U}) numbers_[e - 1].add(piece, e, polygons_.all_corners());
     append<Vec3>(piece.positions, polygons_.positions);
     append<Vec2>(piece.uvs, polygons_.uvs);
     append<Vec3>(piece.normals, polygons_.normals);

@@ -161,15 +161,15 @@ class TriangleMaker {
 
   [[nodiscard]] bool all_have_normals(std::uint32_t count) const {
     return parallel_fold(
-               count, 1U << 15, char{1},
+               count, 1U << 15, std::uint8_t{1},
                [&](std::size_t first, std::size_t last) {
                  Vec3 normal(0);
-                 char all = 1;
+                 std::uint8_t all = 1;
                  for (std::size_t i = first; i < last && all != 0; ++i)
                    all = unit_normal(vertex_of(static_cast<std::uint32_t>(i)), normal) ? 1 : 0;
                  return all;
                },
-               [](char& all, char part) { all &= part; }) != 0;
+               [](std::uint8_t& all, std::uint8_t part) { all = std::min(all, part); }) != 0;
   }
 
   // False if the file gives none, or one of no length.

@@ -47,7 +47,7 @@ struct HashedVertex {
 class HashGroups {
  public:
   HashGroups(std::uint32_t count, const std::function<VertexValues(std::uint32_t)>& values)
-      : shift_(32 - std::bit_width(std::min(count / 4096, 1023U))),
+      : shift_(32 - static_cast<int>(std::bit_width(std::min(count / 4096, 1023U)))),
         groups_(std::size_t{1} << (32 - shift_)),
         members_(count) {
     const std::size_t chunks = (std::size_t{count} + chunk - 1) / chunk;
