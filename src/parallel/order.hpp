@@ -8,9 +8,25 @@ namespace pah {
 
 class ForkJoinOrder {
  public:
+  // What is done by one task, to its end or to what it throws.
+  class Task {
+   public:
+    explicit Task(ForkJoinOrder& order);
+    ~Task();
+    Task(const Task&) = delete;
+    Task& operator=(const Task&) = delete;
+
+   private:
+    ForkJoinOrder& order_;
+  };
+
+  ForkJoinOrder() = default;
+  // A join, too: what a task throws leaves the loop without another.
+  ~ForkJoinOrder();
+  ForkJoinOrder(const ForkJoinOrder&) = delete;
+  ForkJoinOrder& operator=(const ForkJoinOrder&) = delete;
+
   void fork();
-  void begin_task() const;
-  void end_task();
   void join() const;
 
  private:

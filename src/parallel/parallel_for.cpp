@@ -23,12 +23,10 @@ void parallel_ranges(std::size_t count, std::size_t grain,
   tbb::parallel_for(
       Range(0, count, grain),
       [&](const Range& range) {
-        order.begin_task();
+        const ForkJoinOrder::Task task(order);
         body(range.begin(), range.end());
-        order.end_task();
       },
       tbb::simple_partitioner());
-  order.join();
 }
 
 }  // namespace pah

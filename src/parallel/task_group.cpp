@@ -17,9 +17,8 @@ TaskGroup::~TaskGroup() = default;
 void TaskGroup::run(std::function<void()> task) {
   impl_->order.fork();
   impl_->tasks.run([this, task = std::move(task)] {
-    impl_->order.begin_task();
+    const ForkJoinOrder::Task here(impl_->order);
     task();
-    impl_->order.end_task();
   });
 }
 
