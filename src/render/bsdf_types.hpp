@@ -7,7 +7,6 @@
 // right side of the geometry is the caller's to check.
 #pragma once
 
-#include <optional>
 #include <pah/geometry/vec.hpp>
 #include <variant>
 

@@ -292,6 +292,7 @@ Vec3 geometric_normal(const Triangle& triangle) {
   const DVec3 exact = scaled_normal(triangle);
   const Vec3 normal(exact);
   const float length2 = glm::dot(normal, normal);
+  // Where float squares neither overflow nor lose digits.
   if (length2 > 0x1p-80F && length2 < 0x1p80F) return normal / std::sqrt(length2);
   const double length = glm::length(exact);
   return length > 0 ? Vec3(exact / length) : Vec3(0);
