@@ -55,11 +55,6 @@ template <typename Model>
       bsdf);
 }
 
-// Whether `sample` looks at u.
-[[nodiscard]] inline bool chooses_lobe(const Bsdf& bsdf) {
-  return std::holds_alternative<GlassBsdf>(bsdf) || std::holds_alternative<CoatedBsdf>(bsdf);
-}
-
 // False if all lobes are delta: no light can then be connected to.
 [[nodiscard]] inline bool has_smooth_lobes(const Bsdf& bsdf) {
   struct SmoothLobes {

@@ -49,8 +49,8 @@ Ray CameraRays::central(int x, int y) const {
   return ray;
 }
 
-CameraRay CameraRays::generate(int x, int y, Sampler& sampler) const {
-  const Vec2 u = sampler.next_2d();
+CameraRay CameraRays::generate(int x, int y, NumberReader& numbers) const {
+  const Vec2 u = numbers.next_2d();
   const Vec2 offset = filter_ == PixelFilter::box ? sample_box(u, filter_radius_)
                                                   : sample_blackman_harris(u, filter_radius_);
   const Vec3 across =
@@ -72,7 +72,7 @@ CameraRay CameraRays::generate(int x, int y, Sampler& sampler) const {
                camera_bundle};
     return out;
   }
-  const Vec2 lens = aperture_radius_ * sample_unit_disk(sampler.next_2d());
+  const Vec2 lens = aperture_radius_ * sample_unit_disk(numbers.next_2d());
   const Vec3 shift = lens.x * right_ + lens.y * up_;
   out.ray.origin = position_ + shift;
   out.ray.direction = glm::normalize(focus_distance_ * direction - shift);

@@ -5,7 +5,7 @@
 #include <pah/scene/camera.hpp>
 #include <pah/scene/settings.hpp>
 
-#include "render/sampler.hpp"
+#include "render/drawn_numbers.hpp"
 
 namespace pah {
 
@@ -22,7 +22,10 @@ class CameraRays {
   CameraRays(const Camera& camera, const FilmSettings& film);
 
   // The filter is importance-sampled: every sample belongs to its pixel, with weight 1.
-  [[nodiscard]] CameraRay generate(int x, int y, Sampler& sampler) const;
+  [[nodiscard]] CameraRay generate(int x, int y, NumberReader& numbers) const;
+
+  // How many of the numbers that takes.
+  [[nodiscard]] std::uint32_t dimensions() const { return aperture_radius_ > 0 ? 2 : 1; }
 
   // Through the centers of the pixel and of the lens.
   [[nodiscard]] Ray central(int x, int y) const;

@@ -85,11 +85,6 @@ class Lights {
   [[nodiscard]] const LightSampler& sampler() const { return sampler_; }
   [[nodiscard]] std::size_t size() const { return emitters_.size(); }
 
-  // Whether `sample` looks at u.
-  [[nodiscard]] bool chooses_triangle(LightId light) const {
-    return std::holds_alternative<AreaEmitter>(emitters_[light]);
-  }
-
   // Nothing where the light does not shine.
   [[nodiscard]] std::optional<LightSample> sample(LightId light, const LitPoint& at, float u,
                                                   const Vec2& u2) const;

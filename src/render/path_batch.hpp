@@ -6,8 +6,8 @@
 #include <pah/render/counts.hpp>
 #include <vector>
 
+#include "render/drawn_numbers.hpp"
 #include "render/light_sampler.hpp"
-#include "render/sampler.hpp"
 
 namespace pah {
 
@@ -73,6 +73,7 @@ struct PathBatch {
   std::vector<std::uint32_t> key_ends;
   std::size_t shadows = 0;
 
+  DrawnNumbers numbers;
   RenderCounts counts;
 };
 

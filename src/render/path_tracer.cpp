@@ -130,6 +130,10 @@ PathTracer::PathTracer(const World& world, const Accelerator& accelerator,
   for (const Surface& surface : world.surfaces) {
     any_masked_ = any_masked_ || masked_[surface.material] != 0;
   }
+  const bool lit = !lights_.sampler().empty();
+  const bool several = lit && lights_.sampler().only() == no_light;
+  // Opacity; light, its triangle and a point on it; lobe and direction; roulette.
+  dimensions_ = (any_masked_ ? 1 : 0) + (several ? 1 : 0) + (lit ? 2 : 0) + 2 + 1;
 }
 
 PathBatch PathTracer::make_batch(std::size_t capacity) const { return {capacity, keys_}; }
@@ -152,24 +156,39 @@ void PathTracer::trace(const PixelRect& tile, int first, int count, PathBatch& b
 }
 
 void PathTracer::generate(const PixelRect& tile, int first, int count, PathBatch& batch) const {
-  std::size_t i = 0;
-  for (int y = tile.y0; y < tile.y1; ++y) {
-    for (int x = tile.x0; x < tile.x1; ++x) {
-      for (int k = first; k < first + count; ++k, ++i) {
-        Path path;
-        path.sampler = Sampler(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y),
-                               static_cast<std::uint32_t>(k), settings_.seed);
-        path.slot = static_cast<std::uint32_t>(i);
-        const CameraRay camera_ray = camera_.generate(x, y, path.sampler);
-        path.cone_width = camera_ray.cone_width;
-        path.cone_spread = camera_ray.cone_spread;
-        batch.paths[i] = path;
-        batch.rays[i] = camera_ray.ray;
-        batch.samples[i] = {};
-      }
+  const auto per_pixel = static_cast<std::size_t>(count);
+  const auto width = static_cast<std::size_t>(tile.x1 - tile.x0);
+  const std::size_t all = per_pixel * width * static_cast<std::size_t>(tile.y1 - tile.y0);
+  const std::uint32_t dimensions = camera_.dimensions();
+  std::array<glm::ivec2, DrawnNumbers::lanes> pixels{};
+  for (std::size_t begin = 0; begin < all; begin += DrawnNumbers::lanes) {
+    const std::size_t end = std::min(begin + DrawnNumbers::lanes, all);
+    for (std::size_t i = begin; i < end; ++i) {
+      const std::size_t pixel = i / per_pixel;
+      const int x = tile.x0 + static_cast<int>(pixel % width);
+      const int y = tile.y0 + static_cast<int>(pixel / width);
+      const int k = first + static_cast<int>(i % per_pixel);
+      Path& path = batch.paths[i];
+      path = {};
+      path.sampler = Sampler(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y),
+                             static_cast<std::uint32_t>(k), settings_.seed);
+      path.slot = static_cast<std::uint32_t>(i);
+      batch.numbers.set(i - begin, path.sampler);
+      path.sampler.skip(dimensions);
+      pixels[i - begin] = {x, y};
+    }
+    batch.numbers.draw(dimensions);
+    for (std::size_t i = begin; i < end; ++i) {
+      NumberReader numbers(batch.numbers, i - begin);
+      const CameraRay camera_ray =
+          camera_.generate(pixels[i - begin].x, pixels[i - begin].y, numbers);
+      batch.paths[i].cone_width = camera_ray.cone_width;
+      batch.paths[i].cone_spread = camera_ray.cone_spread;
+      batch.rays[i] = camera_ray.ray;
+      batch.samples[i] = {};
     }
   }
-  batch.active = i;
+  batch.active = all;
 }
 
 void PathTracer::intersect(PathBatch& batch, RayKind kind) const {
@@ -182,18 +201,28 @@ void PathTracer::intersect(PathBatch& batch, RayKind kind) const {
 void PathTracer::shade(PathBatch& batch) const {
   std::size_t kept = 0;
   batch.shadows = 0;
-  for (std::size_t i = 0; i < batch.active; ++i) {
-    if (!shade_path(batch.paths[i], batch.rays[i], batch.hits[i], batch)) continue;
-    if (kept != i) {
-      batch.paths[kept] = batch.paths[i];
-      batch.rays[kept] = batch.rays[i];
+  for (std::size_t begin = 0; begin < batch.active; begin += DrawnNumbers::lanes) {
+    const std::size_t end = std::min(begin + DrawnNumbers::lanes, batch.active);
+    for (std::size_t i = begin; i < end; ++i) {
+      batch.numbers.set(i - begin, batch.paths[i].sampler);
     }
-    ++kept;
+    batch.numbers.draw(dimensions_);
+    for (std::size_t i = begin; i < end; ++i) {
+      NumberReader numbers(batch.numbers, i - begin);
+      if (!shade_path(batch.paths[i], batch.rays[i], batch.hits[i], numbers, batch)) continue;
+      batch.paths[i].sampler.skip(numbers.used());
+      if (kept != i) {
+        batch.paths[kept] = batch.paths[i];
+        batch.rays[kept] = batch.rays[i];
+      }
+      ++kept;
+    }
   }
   batch.active = kept;
 }
 
-bool PathTracer::shade_path(Path& path, Ray& ray, const Hit& hit, PathBatch& batch) const {
+bool PathTracer::shade_path(Path& path, Ray& ray, const Hit& hit, NumberReader& numbers,
+                            PathBatch& batch) const {
   PathSample& sample = batch.samples[path.slot];
   if (!hit.valid()) {
     add_distant(path, ray, sample);
@@ -207,7 +236,7 @@ bool PathTracer::shade_path(Path& path, Ray& ray, const Hit& hit, PathBatch& bat
   if (any_masked_ && masked_[at.surface->material] != 0) {
     const float stopped =
         opacity(world_.materials[at.surface->material], textures_, at.uv, footprint);
-    if (path.sampler.next_1d() >= stopped) {
+    if (numbers.next_1d() >= stopped) {
       ray = spawn_ray(at.point, ray.direction);
       return ++path.passes < most_passes;
     }
@@ -224,9 +253,9 @@ bool PathTracer::shade_path(Path& path, Ray& ray, const Hit& hit, PathBatch& bat
       sample.normal = scattering.lit.normal;
       path.features_found = true;
     }
-    gather_shadow(path, scattering, batch);
+    gather_shadow(path, scattering, numbers, batch);
   }
-  return scatter(path, ray, scattering);
+  return scatter(path, ray, scattering, numbers);
 }
 
 // How much of the light that a ray met by chance counts, given that next-event estimation might
@@ -259,12 +288,13 @@ void PathTracer::add_emission(const Path& path, const Ray& ray, const Hit& hit,
 }
 
 // Next-event estimation: one light, one direction, one segment to be resolved with the others.
-void PathTracer::gather_shadow(Path& path, const Scattering& scattering, PathBatch& batch) const {
+void PathTracer::gather_shadow(const Path& path, const Scattering& scattering,
+                               NumberReader& numbers, PathBatch& batch) const {
   if (lights_.sampler().empty()) return;
-  const float u_choice = lights_.sampler().only() == no_light ? path.sampler.next_1d() : 0;
+  const float u_choice = lights_.sampler().only() == no_light ? numbers.next_1d() : 0;
   const auto choice = lights_.sampler().choose(scattering.lit, u_choice);
-  const float u = path.sampler.next_1d_if(choice && lights_.chooses_triangle(choice->light));
-  const Vec2 u2 = path.sampler.next_2d();
+  const float u = numbers.next_1d();
+  const Vec2 u2 = numbers.next_2d();
   if (!choice) return;
   const auto drawn = lights_.sample(choice->light, scattering.lit, u, u2);
   if (!drawn || (settings_.strategy == Strategy::bsdf && !drawn->delta)) return;
@@ -300,9 +330,10 @@ void PathTracer::gather_shadow(Path& path, const Scattering& scattering, PathBat
   ++batch.shadows;
 }
 
-bool PathTracer::scatter(Path& path, Ray& ray, const Scattering& scattering) const {
-  const float u = path.sampler.next_1d_if(chooses_lobe(scattering.bsdf));
-  const Vec2 u2 = path.sampler.next_2d();
+bool PathTracer::scatter(Path& path, Ray& ray, const Scattering& scattering,
+                         NumberReader& numbers) const {
+  const float u = numbers.next_1d();
+  const Vec2 u2 = numbers.next_2d();
   const auto drawn = sample(scattering.bsdf, scattering.wo, u, u2);
   if (!drawn) return false;
   // Past the last interaction a ray is worth sending only for the light that it may meet.
@@ -333,7 +364,7 @@ bool PathTracer::scatter(Path& path, Ray& ray, const Scattering& scattering) con
     const Vec3 weight = path.throughput * path.eta_scale;
     const float survival = std::max({weight.x, weight.y, weight.z});
     if (survival < 1) {
-      if (path.sampler.next_1d() >= survival) return false;
+      if (numbers.next_1d() >= survival) return false;
       path.throughput /= survival;
     }
   }

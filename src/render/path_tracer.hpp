@@ -35,12 +35,15 @@ class PathTracer {
   void accumulate(const PixelRect& tile, int count, PathBatch& batch, Film& film) const;
 
   // Whether the path goes on; `ray` is then its next one.
-  [[nodiscard]] bool shade_path(Path& path, Ray& ray, const Hit& hit, PathBatch& batch) const;
+  [[nodiscard]] bool shade_path(Path& path, Ray& ray, const Hit& hit, NumberReader& numbers,
+                                PathBatch& batch) const;
   void add_distant(const Path& path, const Ray& ray, PathSample& sample) const;
   void add_emission(const Path& path, const Ray& ray, const Hit& hit, const SurfaceInteraction& at,
                     PathSample& sample) const;
-  void gather_shadow(Path& path, const struct Scattering& scattering, PathBatch& batch) const;
-  [[nodiscard]] bool scatter(Path& path, Ray& ray, const struct Scattering& scattering) const;
+  void gather_shadow(const Path& path, const struct Scattering& scattering, NumberReader& numbers,
+                     PathBatch& batch) const;
+  [[nodiscard]] bool scatter(Path& path, Ray& ray, const struct Scattering& scattering,
+                             NumberReader& numbers) const;
   [[nodiscard]] float emission_weight(const Path& path, float light_pdf, LightId light) const;
   [[nodiscard]] float opacity_at(std::uint32_t triangle, const Vec2& barycentrics,
                                  float footprint) const;
@@ -58,8 +61,9 @@ class PathTracer {
   Lights lights_;
   std::vector<std::uint8_t> masked_;  // per material: opacity is not simply 1
   bool any_masked_ = false;
-  bool textured_;           // some picture wants to know how much of it a ray sees
-  std::uint32_t keys_ = 1;  // of the sort by bundle
+  bool textured_;               // some picture wants to know how much of it a ray sees
+  std::uint32_t keys_ = 1;      // of the sort by bundle
+  std::size_t dimensions_ = 0;  // that a path may ask for at a surface
   bool count_traversal_;
 };
 

@@ -1,4 +1,4 @@
-#include "render/sampler.hpp"
+#include "render/drawn_numbers.hpp"
 
 #include <array>
 #include <cmath>
@@ -135,4 +135,25 @@ TEST_CASE("a sampler depends on its arguments alone") {
   Sampler c(640, 480, 77, 0x123456789ULL);
   CHECK(c.next_1d() == 0x1.9ffb7cp-2F);
   CHECK(c.next_2d() == Vec2{0x1.00a04p-5F, 0x1.b65a7cp-1F});
+}
+
+TEST_CASE("numbers drawn side by side are those of each sampler") {
+  DrawnNumbers numbers;
+  std::vector<Sampler> samplers;
+  for (std::uint32_t lane = 0; lane < DrawnNumbers::lanes; ++lane) {
+    samplers.emplace_back(lane * 977, lane, 0x9E3779B9U * lane, lane);
+    samplers.back().skip(lane * lane);
+    numbers.set(lane, samplers.back());
+  }
+  numbers.draw(DrawnNumbers::most_dimensions);
+  for (std::size_t lane = 0; lane < samplers.size(); ++lane) {
+    CAPTURE(lane);
+    NumberReader reader(numbers, lane);
+    Sampler& sampler = samplers[lane];
+    for (std::size_t i = 0; i < DrawnNumbers::most_dimensions; i += 2) {
+      CHECK(reader.next_2d() == sampler.next_2d());
+      CHECK(reader.next_1d() == sampler.next_1d());
+    }
+    CHECK(reader.used() == DrawnNumbers::most_dimensions);
+  }
 }
