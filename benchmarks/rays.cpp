@@ -5,6 +5,7 @@
 #include <array>
 #include <map>
 #include <memory>
+#include <pah/accel/light_grids.hpp>
 
 #include "recorded_rays.hpp"
 #include "registrations.hpp"
@@ -35,6 +36,9 @@ struct Subject {
   RecordedRays rays;
   std::unique_ptr<Accelerator> bvh = make_global_bvh(scene.world.triangles());
   std::unique_ptr<Accelerator> embree = make_embree(scene.world.triangles());
+  std::unique_ptr<Accelerator> grids = make_light_grids(
+      scene.world.triangles(), {{MeshScene::bulb, *exact_bundle(scene.world.lights[0])},
+                                {MeshScene::sun, *exact_bundle(scene.world.lights[1])}});
   std::unique_ptr<Accelerator> local =
       make_local_bvhs(scene.world.triangles(), {scene.bulb_area, scene.sun_area},
                       {Heuristic::projected_area, SplitAxis::longest, 0.5, {}});
@@ -112,10 +116,12 @@ void register_rays(const std::vector<std::string>& meshes) {
     for (const RayKind& kind : kinds) {
       add(kind, mesh, "bvh", &Subject::bvh);
       if (has_embree()) add(kind, mesh, "embree", &Subject::embree);
-      // Only rays that go to a light have a local BVH to be asked.
+      // Only rays that go to a light have a structure of their own to be asked.
       const bool to_light =
           kind.batches == &RecordedRays::to_bulb || kind.batches == &RecordedRays::to_sun;
-      if (to_light) add(kind, mesh, "local_pah", &Subject::local);
+      if (!to_light) continue;
+      add(kind, mesh, "local_pah", &Subject::local);
+      add(kind, mesh, "light_grid", &Subject::grids);
     }
   }
 }

@@ -11,10 +11,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// geometry, image, parallel | influence, bvh | accel, scene | render | io | report | cli
+// geometry, image, parallel | influence, bvh | light_space | accel, scene | render | io | report |
+// cli
 const std::map<std::string, int, std::less<>> ranks{
-    {"geometry", 0}, {"image", 0},  {"parallel", 0}, {"influence", 1}, {"bvh", 1}, {"accel", 2},
-    {"scene", 2},    {"render", 3}, {"io", 4},       {"report", 5},    {"cli", 6}};
+    {"geometry", 0}, {"image", 0},       {"parallel", 0}, {"influence", 1},
+    {"bvh", 1},      {"light_space", 2}, {"accel", 3},    {"scene", 3},
+    {"render", 4},   {"io", 5},          {"report", 6},   {"cli", 7}};
 
 // A folder below a module's own.
 struct Floor {
@@ -50,7 +52,7 @@ const std::vector<ThirdParty> third_parties{
     {"CLI/", {"src/cli/"}},
     {"embree3/", {"src/accel/"}},
     {"embree4/", {"src/accel/"}},
-    {"hwy/", {"src/geometry/", "src/bvh/", "src/accel/", "src/render/"}},
+    {"hwy/", {"src/geometry/", "src/bvh/", "src/light_space/", "src/accel/", "src/render/"}},
 };
 // The operating system's headers: <unistd.h>, <sys/resource.h>.
 const std::vector<std::string_view> system_header_users{"src/io/", "src/report/", "src/cli/"};

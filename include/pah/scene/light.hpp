@@ -1,6 +1,8 @@
 // Lights, as values in scene coordinates. LightId is an index in Scene::lights.
 #pragma once
 
+#include <optional>
+#include <pah/geometry/exact_bundle.hpp>
 #include <pah/scene/mesh.hpp>
 #include <variant>
 
@@ -43,5 +45,8 @@ struct Light {
   std::string name;
   std::variant<PointLight, SpotLight, DirectionalLight, AreaLight, EnvironmentLight> model;
 };
+
+// The shadow rays that the renderer sends to a light, if they share a point or a direction.
+[[nodiscard]] std::optional<ExactBundle> exact_bundle(const Light& light);
 
 }  // namespace pah

@@ -1,0 +1,21 @@
+// Bundles whose rays all run through one point or along one direction.
+#pragma once
+
+#include <pah/geometry/ray.hpp>
+#include <variant>
+
+namespace pah {
+
+// Segments that end at `eye`: their direction is eye - origin, rounded, and t_max at most 1.
+struct PointBundle {
+  Vec3 eye{0};
+};
+
+// Rays whose direction is `toward`, bit by bit: of unit length up to rounding.
+struct ParallelBundle {
+  Vec3 toward{0, 1, 0};
+};
+
+using ExactBundle = std::variant<PointBundle, ParallelBundle>;
+
+}  // namespace pah

@@ -1,0 +1,358 @@
+#include <algorithm>
+#include <atomic>
+#include <bit>
+#include <cmath>
+#include <utility>
+
+#include "geometry/ray_box.hpp"
+#include "geometry/rounding.hpp"
+#include "light_space/light_grid.hpp"
+#include "light_space/outline.hpp"
+#include "parallel/parallel_for.hpp"
+
+namespace pah {
+
+namespace {
+
+constexpr std::size_t blocks_a_task = 1024;
+
+// A cell for each triangle that a face sees, so that few are in a cell and few cells are empty.
+constexpr double cells_per_triangle = 1;
+constexpr double most_cells_across = 16384;
+
+// Cells that a block covers beyond these are worth a bound of their own depth.
+constexpr std::uint32_t few_cells = 4;
+
+std::variant<CubeView, ParallelView> view_of(const ExactBundle& bundle) {
+  if (const auto* point = std::get_if<PointBundle>(&bundle)) return CubeView(*point);
+  return ParallelView(std::get<ParallelBundle>(bundle));
+}
+
+Aabb bounds_of(const Bvh& bvh) {
+  return parallel_fold(
+      bvh.blocks.size(), blocks_a_task, Aabb{},
+      [&](std::size_t first, std::size_t last) {
+        Aabb box;
+        for (std::size_t i = first; i < last; ++i) {
+          for (std::size_t lane = 0; lane < TriangleBlock::width; ++lane)
+            box.extend(bvh.blocks[i].triangle(lane).bounds());
+        }
+        return box;
+      },
+      [](Aabb& total, const Aabb& box) { total.extend(box); });
+}
+
+// How far from a triangle, along every axis of a face, a ray may be that hits it: see the header.
+// Axes of the world are those of a cube's faces.
+double error_of(const PointBundle& bundle, const Aabb& origins) {
+  const DVec3 eye(bundle.eye);
+  const DVec3 away =
+      glm::max(glm::abs(DVec3(origins.min) - eye), glm::abs(DVec3(origins.max) - eye));
+  const DVec3 size = DVec3(origins.max) - DVec3(origins.min);
+  return double{rounding_bound(32)} * std::max({away.x, away.y, away.z, size.x, size.y, size.z});
+}
+double error_of(const ParallelBundle& /*bundle*/, const Aabb& origins) {
+  const DVec3 size = DVec3(origins.max) - DVec3(origins.min);
+  return std::sqrt(3.0) * double{rounding_bound(32)} * std::max({size.x, size.y, size.z});
+}
+
+// What a face sees: where, and how many triangles.
+struct Extent {
+  Range u, v;
+  std::size_t triangles = 0;
+
+  void extend(const Extent& other) {
+    u.extend(other.u);
+    v.extend(other.v);
+    triangles += other.triangles;
+  }
+};
+using Extents = std::array<Extent, CubeView::faces>;
+
+// A block in a cell.
+struct Entry {
+  float nearest;
+  PlaceBytes places;
+  std::uint32_t block;
+};
+
+// An entry before the cells are sorted.
+struct Placed {
+  std::uint32_t cell;
+  Entry entry;
+};
+
+template <typename View>
+class Builder {
+ public:
+  Builder(LightGrid& grid, const View& view, double error)
+      : grid_(grid), view_(view), error_(error) {}
+
+  void build() {
+    lay_out(extents());
+    place();
+    sort();
+  }
+
+ private:
+  // Of the triangles of a block on a face.
+  struct Outlines {
+    std::array<Outline, TriangleBlock::width> of;
+    std::size_t size = 0;
+  };
+
+  [[nodiscard]] static std::size_t triangles_in(const TriangleBlock& block) {
+    std::size_t count = 1;
+    while (count < TriangleBlock::width && block.indices[count] != block.indices[count - 1])
+      ++count;
+    return count;
+  }
+
+  // Calls `use(face, outlines)` for every face that sees something of the block.
+  template <typename Use>
+  void for_each_face(const TriangleBlock& block, const Use& use) const {
+    const std::size_t count = triangles_in(block);
+    for (int face = 0; face < View::faces; ++face) {
+      Outlines outlines;
+      for (std::size_t i = 0; i < count; ++i) {
+        if (const auto outline = outline_on(view_, face, block.triangle(i), error_))
+          outlines.of[outlines.size++] = *outline;
+      }
+      if (outlines.size > 0) use(face, outlines);
+    }
+  }
+
+  [[nodiscard]] Extents extents() const {
+    return parallel_fold(
+        grid_.bvh->blocks.size(), blocks_a_task, Extents{},
+        [&](std::size_t first, std::size_t last) {
+          Extents extents;
+          for (std::size_t i = first; i < last; ++i) {
+            for_each_face(grid_.bvh->blocks[i], [&](int face, const Outlines& outlines) {
+              Extent& extent = extents[static_cast<std::size_t>(face)];
+              for (std::size_t k = 0; k < outlines.size; ++k) {
+                const Outline& outline = outlines.of[k];
+                for (std::size_t vertex = 0; vertex < outline.size; ++vertex) {
+                  for (const double margin : {-outline.margin, outline.margin}) {
+                    extent.u.extend(outline.vertices[vertex].x + margin);
+                    extent.v.extend(outline.vertices[vertex].y + margin);
+                  }
+                }
+              }
+              extent.triangles += outlines.size;
+            });
+          }
+          return extents;
+        },
+        [](Extents& total, const Extents& part) {
+          for (std::size_t face = 0; face < total.size(); ++face) total[face].extend(part[face]);
+        });
+  }
+
+  void lay_out(const Extents& extents) {
+    std::uint32_t cells = 0;
+    for (std::size_t i = 0; i < extents.size(); ++i) {
+      const Extent& extent = extents[i];
+      if (extent.triangles == 0) continue;
+      Range u = extent.u, v = extent.v;
+      if (std::is_same_v<View, CubeView>) {
+        u = {std::max(u.min, -1.0), std::min(u.max, 1.0)};
+        v = {std::max(v.min, -1.0), std::min(v.max, 1.0)};
+        if (u.empty() || v.empty()) continue;
+      }
+      const double width = u.max - u.min, height = v.max - v.min;
+      const double wanted =
+          std::sqrt(cells_per_triangle * static_cast<double>(extent.triangles) / (width * height));
+      GridFace& face = grid_.faces[i];
+      face.u = u.min;
+      face.v = v.min;
+      const double cells_per_length = std::min(wanted, most_cells_across / std::max(width, height));
+      face.per_length = GridFace::places * cells_per_length;
+      face.columns = static_cast<std::uint32_t>(width * cells_per_length) + 1;
+      face.rows = static_cast<std::uint32_t>(height * cells_per_length) + 1;
+      face.first_cell = cells;
+      cells += face.columns * face.rows;
+    }
+    grid_.cells.resize(cells + std::size_t{1});
+  }
+
+  // The places along a row or column of cells that a range has, if any.
+  struct Places {
+    std::uint32_t first, last;
+
+    [[nodiscard]] std::uint32_t first_cell() const { return first / GridFace::places; }
+    [[nodiscard]] std::uint32_t last_cell() const { return last / GridFace::places; }
+    // Within one cell that has some of them.
+    [[nodiscard]] std::uint32_t first_in(std::uint32_t cell) const {
+      return cell == first_cell() ? first % GridFace::places : 0;
+    }
+    [[nodiscard]] std::uint32_t last_in(std::uint32_t cell) const {
+      return cell == last_cell() ? last % GridFace::places : GridFace::places - 1;
+    }
+  };
+  [[nodiscard]] static std::optional<Places> places_of(const Range& range, double first,
+                                                       double per_length, std::uint32_t cells) {
+    const double most = static_cast<double>(cells) * GridFace::places;
+    const double low = std::floor((range.min - first) * per_length);
+    const double high = std::floor((range.max - first) * per_length);
+    if (!(low < most && high >= 0)) return {};
+    return Places{static_cast<std::uint32_t>(std::max(low, 0.0)),
+                  static_cast<std::uint32_t>(std::min(high, most - 1))};
+  }
+
+  // Calls `use(cell, entry)` for every cell that sees something of the block.
+  template <typename Use>
+  void for_each_cell(const GridFace& face, std::uint32_t block, const Outlines& outlines,
+                     const Use& use) const {
+    Range v;
+    double nearest = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < outlines.size; ++i) {
+      const Outline& outline = outlines.of[i];
+      v.extend(outline.lowest_v() - outline.margin);
+      v.extend(outline.highest_v() + outline.margin);
+      nearest = std::min(nearest, outline.nearest);
+    }
+    const auto rows = places_of(v, face.v, face.per_length, face.rows);
+    if (!rows) return;
+    const double side = GridFace::places / face.per_length;
+    for (std::uint32_t row = rows->first_cell(); row <= rows->last_cell(); ++row) {
+      const Range strip{face.v + row * side, face.v + (row + 1) * side};
+      Range u;
+      for (std::size_t i = 0; i < outlines.size; ++i) u.extend(across(outlines.of[i], strip));
+      const auto columns = places_of(u, face.u, face.per_length, face.columns);
+      if (!columns) continue;
+      const std::uint32_t cells = face.first_cell + row * face.columns;
+      const std::uint32_t first = columns->first_cell(), last = columns->last_cell();
+      const bool covers_many =
+          (last - first + 1) * (rows->last_cell() - rows->first_cell() + 1) > few_cells;
+      for (std::uint32_t column = first; column <= last; ++column) {
+        const DVec2 center(face.u + (column + 0.5) * side, strip.min + 0.5 * side);
+        const double bound = covers_many ? nearest_in(center, 0.5 * side, outlines) : nearest;
+        use(cells + column, Entry{stored(bound),
+                                  place_bytes(columns->first_in(column), columns->last_in(column),
+                                              rows->first_in(row), rows->last_in(row)),
+                                  block});
+      }
+    }
+  }
+
+  // A bound of the depths in a cell, given its center and half its side.
+  [[nodiscard]] double nearest_in(const DVec2& center, double half,
+                                  const Outlines& outlines) const {
+    double nearest = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < outlines.size; ++i) {
+      const Outline& outline = outlines.of[i];
+      const double middle = outline.offset + glm::dot(outline.slope, center);
+      const double change =
+          (std::abs(outline.slope.x) + std::abs(outline.slope.y)) * (half + outline.margin);
+      double bound = outline.nearest;
+      if (std::is_same_v<View, CubeView>) {
+        if (middle + change > 0) bound = 1 / (middle + change);
+      } else {
+        bound = middle - change;
+      }
+      nearest = std::min(nearest, std::max(bound, outline.nearest));
+    }
+    return nearest;
+  }
+
+  // The origin's depth is compared, which a hit's may exceed by an error: another covers what the
+  // plane of a triangle is off, and the rounding to float.
+  [[nodiscard]] float stored(double nearest) const {
+    const double lower = nearest - 2 * error_;
+    const auto rounded = static_cast<float>(lower);
+    return rounded > lower ? std::nextafter(rounded, -std::numeric_limits<float>::infinity())
+                           : rounded;
+  }
+
+  void place() {
+    const std::size_t blocks = grid_.bvh->blocks.size();
+    tasks_.resize((blocks + blocks_a_task - 1) / blocks_a_task);
+    counts_ = std::vector<std::atomic<std::uint32_t>>(grid_.cells.size());
+    parallel_for(tasks_.size(), 1, [&](std::size_t task) {
+      std::vector<Placed>& placed = tasks_[task];
+      const std::size_t last = std::min((task + 1) * blocks_a_task, blocks);
+      for (std::size_t i = task * blocks_a_task; i < last; ++i) {
+        for_each_face(grid_.bvh->blocks[i], [&](int face, const Outlines& outlines) {
+          for_each_cell(grid_.faces[static_cast<std::size_t>(face)], static_cast<std::uint32_t>(i),
+                        outlines, [&](std::uint32_t cell, const Entry& entry) {
+                          placed.push_back({cell, entry});
+                          counts_[cell].fetch_add(1, std::memory_order_relaxed);
+                        });
+        });
+      }
+    });
+  }
+
+  void sort() {
+    std::vector<std::uint64_t> firsts(grid_.cells.size());
+    std::uint64_t sum = 0;
+    for (std::size_t i = 0; i < grid_.cells.size(); ++i) {
+      firsts[i] = sum;
+      sum += counts_[i].exchange(0, std::memory_order_relaxed);
+    }
+    std::vector<Entry> entries(sum);
+    parallel_for(tasks_.size(), 1, [&](std::size_t task) {
+      for (const Placed& placed : tasks_[task]) {
+        const std::uint32_t before = counts_[placed.cell].fetch_add(1, std::memory_order_relaxed);
+        entries[firsts[placed.cell] + before] = placed.entry;
+      }
+      tasks_[task] = {};
+    });
+    grid_.lists.resize(3 * sum + LightGrid::read_beyond);
+    parallel_for(grid_.cells.size(), 4096, [&](std::size_t i) {
+      const std::uint32_t count = counts_[i].load(std::memory_order_relaxed);
+      const std::uint64_t first = 3 * firsts[i];
+      grid_.cells[i] = {std::numeric_limits<float>::infinity(), count, first};
+      if (count == 0) return;
+      const std::span list(&entries[firsts[i]], count);
+      std::ranges::sort(list, {}, [](const Entry& e) { return std::pair(e.nearest, e.block); });
+      for (std::size_t k = 0; k < count; ++k) {
+        grid_.lists[first + k] = std::bit_cast<std::uint32_t>(list[k].nearest);
+        grid_.lists[first + count + k] = list[k].places;
+        grid_.lists[first + 2 * count + k] = list[k].block;
+      }
+      grid_.cells[i].nearest = list.front().nearest;
+    });
+  }
+
+  LightGrid& grid_;
+  const View& view_;
+  double error_;
+  std::vector<std::vector<Placed>> tasks_;
+  std::vector<std::atomic<std::uint32_t>> counts_;
+};
+
+// Blocks with something nearer to the eye than faces show, by their boxes.
+std::vector<std::uint32_t> blocks_near(const Bvh& bvh, const Vec3& eye, double distance) {
+  std::vector<std::uint32_t> near;
+  for (std::size_t i = 0; i < bvh.blocks.size(); ++i) {
+    Aabb box;
+    for (std::size_t lane = 0; lane < TriangleBlock::width; ++lane)
+      box.extend(bvh.blocks[i].triangle(lane).bounds());
+    const DVec3 gap = glm::max(DVec3(box.min) - DVec3(eye), DVec3(eye) - DVec3(box.max));
+    if (std::max({gap.x, gap.y, gap.z}) < distance) near.push_back(static_cast<std::uint32_t>(i));
+  }
+  return near;
+}
+
+}  // namespace
+
+LightGrid::LightGrid(const Bvh& over, const ExactBundle& bundle)
+    : bvh(&over), view(view_of(bundle)) {
+  const Aabb box = bounds_of(over);
+  // Rays start on triangles, or a little off them.
+  const float around = 0x1p-10F * (box.empty() ? 0 : largest_of(box.extent()));
+  origins = {box.min - around, box.max + around};
+  const double error = std::visit([&](const auto& b) { return error_of(b, origins); }, bundle);
+  if (!(around > 0) || !std::isfinite(error)) {
+    origins = {};
+    cells.resize(1);
+    return;
+  }
+  std::visit([&](const auto& any) { Builder(*this, any, error).build(); }, view);
+  if (const auto* point = std::get_if<PointBundle>(&bundle))
+    near_blocks = blocks_near(over, point->eye, (nearest_on_faces + 4) * error);
+}
+
+}  // namespace pah

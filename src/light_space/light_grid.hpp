@@ -1,0 +1,84 @@
+// A grid in the space of a light, where every ray of an exact bundle is a point: a look-up in place
+// of a traversal. A cell lists the blocks of the BVH's triangles that the light sees there, the
+// nearest first; a ray tests those that are nearer than its origin.
+//
+// Why no answer changes. The shared rule (geometry/ray_triangle.hpp) finds a triangle hit only if
+// the ray's point at t lies within 30 u M of it along every axis, M being the largest distance
+// along an axis from the ray's origin to a vertex, u the unit roundoff. For a ray of the bundle
+// that point is off the exact line through the origin and the light by u M at most: by the rounding
+// of its direction, eye - origin. So the exact line, which the light sees as one point, passes the
+// triangle within 31 u M. 1 u M is left for what doubles round on the way. A cell lists every block
+// with a triangle that is seen within that (outline.hpp) of any of its points, and look-up and
+// lists round a coordinate to its cell by one monotone formula. Rays for which this does not hold,
+// or that start where M would be larger, are not answered.
+#pragma once
+
+#include <pah/geometry/aabb.hpp>
+#include <span>
+#include <vector>
+
+#include "bvh/bvh.hpp"
+#include "light_space/light_view.hpp"
+
+namespace pah {
+
+// One side of the light's view as a grid of square cells, each with 128 x 128 places.
+struct GridFace {
+  static constexpr std::uint32_t places = 128;
+
+  double u = 0, v = 0;    // of the first cell's corner
+  double per_length = 0;  // places
+  std::uint32_t columns = 0, rows = 0;
+  std::uint32_t first_cell = 0;
+};
+
+// A cell's list: its blocks' least depths, ascending, as floats; then the places where something of
+// them is seen; then their numbers.
+struct GridCell {
+  float nearest;        // depth of what is seen in it; infinite if there is nothing
+  std::uint32_t count;  // of blocks
+  std::uint64_t first;  // in LightGrid::lists
+};
+
+// A rectangle of places in a cell, or a place: one of them holds another if none of its bytes is
+// larger.
+using PlaceBytes = std::uint32_t;
+[[nodiscard]] constexpr PlaceBytes place_bytes(std::uint32_t first_u, std::uint32_t last_u,
+                                               std::uint32_t first_v, std::uint32_t last_v) {
+  constexpr std::uint32_t last = GridFace::places - 1;
+  return first_u | (last - last_u) << 8U | first_v << 16U | (last - last_v) << 24U;
+}
+// Bytes have seven bits. With the eighth set none borrows from the next.
+inline constexpr std::uint32_t eighth_bits = 0x80808080U;
+
+class LightGrid {
+ public:
+  // Kernels read lists a vector at a time.
+  static constexpr std::size_t read_beyond = 8;
+
+  enum class Answer : std::uint8_t { free = 0, occluded = 1, unknown = 2 };
+
+  // The BVH must outlive the grid. Built by the calling arena's threads.
+  LightGrid(const Bvh& over, const ExactBundle& bundle);
+
+  // answers[i] tells whether ray i hits anything. Rays that are not of the bundle or start far off
+  // the triangles, remain unknown.
+  void occluded(std::span<const Ray> rays, std::span<Answer> answers,
+                TraversalCounts* counts) const;
+
+  [[nodiscard]] std::uint64_t memory_bytes() const {
+    return cells.capacity() * sizeof(GridCell) + lists.capacity() * sizeof(lists[0]) +
+           near_blocks.capacity() * sizeof(near_blocks[0]);
+  }
+
+  // What the kernels look up.
+  const Bvh* bvh;
+  std::variant<CubeView, ParallelView> view;
+  Aabb origins;  // where rays may start
+  std::array<GridFace, CubeView::faces> faces{};
+  std::vector<GridCell> cells;  // by face, row and column; the last one is empty
+  std::vector<std::uint32_t> lists;
+  std::vector<std::uint32_t> near_blocks;  // too near to the light to have a place on its faces
+};
+
+}  // namespace pah

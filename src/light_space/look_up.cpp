@@ -1,0 +1,222 @@
+// The kernels. This file is compiled once for each instruction set.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "light_space/look_up.cpp"
+#include <hwy/foreach_target.h>
+// foreach_target.h comes first.
+#include <hwy/highway.h>
+#include <algorithm>
+#include <cmath>
+
+#include "bvh/block_test-inl.hpp"
+#include "light_space/light_grid.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace pah {
+namespace HWY_NAMESPACE {
+namespace {
+
+using Answer = LightGrid::Answer;
+
+// Rays whose look-ups wait for memory at the same time.
+constexpr std::size_t batch_size = 64;
+constexpr std::size_t most_blocks = 1024;
+
+// Where the light sees a ray's origin.
+struct Place {
+  std::uint32_t cell;
+  float depth;       // rounded up
+  PlaceBytes place;  // in the cell, with the eighth bits
+};
+
+HWY_INLINE float rounded_up(double x) {
+  const auto rounded = static_cast<float>(x);
+  return rounded < x ? rounded + std::abs(rounded) * 0x1p-23F + 0x1p-149F : rounded;
+}
+
+HWY_INLINE bool holds(const Aabb& box, const Vec3& p) {
+  return p.x >= box.min.x && p.y >= box.min.y && p.z >= box.min.z && p.x <= box.max.x &&
+         p.y <= box.max.y && p.z <= box.max.z;
+}
+
+template <class View>
+HWY_INLINE Place place_of(const LightGrid& grid, const View& view, const Vec3& origin) {
+  const DVec3 point(origin);
+  const int side = view.face_of(point);
+  const GridFace& face = grid.faces[static_cast<std::size_t>(side)];
+  const LightPoint seen = View::seen(view.local(side, point));
+  const double u = (seen.u - face.u) * face.per_length;
+  const double v = (seen.v - face.v) * face.per_length;
+  constexpr std::uint32_t places = GridFace::places;
+  if (!(u >= 0 && v >= 0 && u < face.columns * places && v < face.rows * places))
+    return {static_cast<std::uint32_t>(grid.cells.size() - 1), 0, 0};
+  const auto place_u = static_cast<std::uint32_t>(u);
+  const auto place_v = static_cast<std::uint32_t>(v);
+  const std::uint32_t u_in = place_u % places, v_in = place_v % places;
+  return {face.first_cell + place_v / places * face.columns + place_u / places,
+          rounded_up(seen.depth), place_bytes(u_in, u_in, v_in, v_in) | eighth_bits};
+}
+
+// Appends the blocks of a cell that may be between the light and a place.
+HWY_INLINE std::uint32_t* append_blocks(const LightGrid& grid, const GridCell& cell,
+                                        const Place& place, std::uint32_t* HWY_RESTRICT blocks) {
+  const hn::CappedTag<float, LightGrid::read_beyond> d;
+  const hn::RebindToUnsigned<decltype(d)> du;
+  const std::uint32_t* const depths = grid.lists.data() + cell.first;
+  const std::uint32_t* const places = depths + cell.count;
+  const std::uint32_t* const numbers = places + cell.count;
+  const auto depth = hn::Set(d, place.depth);
+  const auto own = hn::Set(du, place.place);
+  const auto eighth = hn::Set(du, eighth_bits);
+  for (std::uint32_t first = 0; first < cell.count; first += hn::Lanes(d)) {
+    const auto nearer = hn::Le(hn::BitCast(d, hn::LoadU(du, depths + first)), depth);
+    const auto held = hn::And(hn::Sub(own, hn::LoadU(du, places + first)), eighth);
+    std::uint32_t found = bits(d, hn::And(nearer, hn::RebindMask(d, hn::Eq(held, eighth))));
+    const std::uint32_t left = cell.count - first;
+    if (left < hn::Lanes(d)) found &= (1U << left) - 1;
+    for (; found != 0; found &= found - 1) *blocks++ = numbers[first + lowest_bit(found)];
+    if (!hn::AllTrue(d, nearer)) break;
+  }
+  return blocks;
+}
+
+template <bool counting>
+HWY_INLINE bool hits_block(const OneOfFour& ray, const TriangleBlock& block, BlockHits& found,
+                           TraversalCounts& counts) {
+  if (counting) ++counts.blocks;
+  if (counting) counts.triangles += TriangleBlock::width;
+  TriangleHit hit;
+  for (std::uint32_t hits = maybe_hit(ray, block, ray.t_max(), found); hits != 0;
+       hits &= hits - 1) {
+    if (found.accept(ray, block, lowest_bit(hits), ray.t_max(), hit)) return true;
+  }
+  return false;
+}
+
+HWY_INLINE void prefetch(const TriangleBlock& block) {
+  const auto* const bytes = reinterpret_cast<const char*>(&block);
+  __builtin_prefetch(bytes);
+  __builtin_prefetch(bytes + 64);
+  __builtin_prefetch(bytes + 128);
+}
+
+// A ray and its run in the list of blocks.
+struct Asked {
+  std::uint32_t ray;
+  std::uint32_t first, last;
+};
+
+template <bool counting>
+HWY_INLINE void test(const LightGrid& grid, std::span<const Ray> rays, std::span<const Asked> asked,
+                     const std::uint32_t* blocks, std::span<Answer> answers,
+                     TraversalCounts& counts) {
+  for (std::size_t first = 0; first < asked.size(); first += 4) {
+    const auto ray = [&](std::size_t k) HWY_ATTR -> const Ray& {
+      return rays[asked[std::min(first + k, asked.size() - 1)].ray];
+    };
+    const Prepared<Float4> prepared = prepare(ray(0), ray(1), ray(2), ray(3));
+    for (std::size_t k = 0; k < std::min<std::size_t>(4, asked.size() - first); ++k) {
+      const Asked& one = asked[first + k];
+      BlockHits found;
+      for (std::uint32_t n = one.first; n < one.last; ++n) {
+        const TriangleBlock& block = grid.bvh->blocks[blocks[n]];
+        if (!hits_block<counting>(OneOfFour{prepared, k}, block, found, counts)) continue;
+        answers[one.ray] = Answer::occluded;
+        break;
+      }
+    }
+  }
+}
+
+template <bool counting, class View>
+HWY_INLINE void look_up(const LightGrid& grid, const View& view, std::span<const Ray> rays,
+                        std::span<Answer> answers, TraversalCounts& counts) {
+  Place places[batch_size];
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    const Ray& ray = rays[i];
+    if (!view.holds(ray) || !holds(grid.origins, ray.origin)) {
+      answers[i] = Answer::unknown;
+      continue;
+    }
+    answers[i] = Answer::free;
+    places[i] = place_of(grid, view, ray.origin);
+    __builtin_prefetch(&grid.cells[places[i].cell]);
+  }
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    if (answers[i] != Answer::unknown)
+      __builtin_prefetch(grid.lists.data() + grid.cells[places[i].cell].first);
+  }
+  // What there is to test, ray by ray.
+  std::uint32_t blocks[most_blocks];
+  std::size_t found_blocks = 0;
+  Asked asked[batch_size];
+  std::size_t count = 0;
+  const auto test_all = [&]() HWY_ATTR {
+    test<counting>(grid, rays, std::span(asked, count), blocks, answers, counts);
+    found_blocks = 0;
+    count = 0;
+  };
+  for (std::uint32_t i = 0; i < rays.size(); ++i) {
+    if (answers[i] == Answer::unknown) continue;
+    const Place place = places[i];
+    const GridCell& cell = grid.cells[place.cell];
+    if (counting) ++counts.nodes;
+    if (found_blocks + grid.near_blocks.size() + cell.count > most_blocks) test_all();
+    if (grid.near_blocks.size() + cell.count > most_blocks) {
+      answers[i] = Answer::unknown;
+      continue;
+    }
+    const auto first = static_cast<std::uint32_t>(found_blocks);
+    for (const std::uint32_t block : grid.near_blocks) blocks[found_blocks++] = block;
+    found_blocks =
+        static_cast<std::size_t>(append_blocks(grid, cell, place, blocks + found_blocks) - blocks);
+    for (std::size_t k = first; k < found_blocks; ++k) prefetch(grid.bvh->blocks[blocks[k]]);
+    asked[count] = {i, first, static_cast<std::uint32_t>(found_blocks)};
+    count += found_blocks > first ? 1 : 0;
+  }
+  test_all();
+}
+
+template <bool counting>
+void look_up_all(const LightGrid& grid, std::span<const Ray> rays, std::span<Answer> answers,
+                 TraversalCounts& counts) {
+  for (std::size_t first = 0; first < rays.size(); first += batch_size) {
+    const std::size_t size = std::min(batch_size, rays.size() - first);
+    const std::span<const Ray> some = rays.subspan(first, size);
+    const std::span<Answer> theirs = answers.subspan(first, size);
+    if (const auto* cube = std::get_if<CubeView>(&grid.view)) {
+      look_up<counting>(grid, *cube, some, theirs, counts);
+    } else {
+      look_up<counting>(grid, std::get<ParallelView>(grid.view), some, theirs, counts);
+    }
+  }
+}
+
+void look_up_kernel(const LightGrid& grid, std::span<const Ray> rays, std::span<Answer> answers,
+                    TraversalCounts* counts) {
+  TraversalCounts none;
+  if (counts != nullptr) {
+    look_up_all<true>(grid, rays, answers, *counts);
+  } else {
+    look_up_all<false>(grid, rays, answers, none);
+  }
+}
+
+}  // namespace
+}  // namespace HWY_NAMESPACE
+}  // namespace pah
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace pah {
+
+namespace {
+HWY_EXPORT(look_up_kernel);
+}  // namespace
+
+void LightGrid::occluded(std::span<const Ray> rays, std::span<Answer> answers,
+                         TraversalCounts* counts) const {
+  HWY_DYNAMIC_DISPATCH(look_up_kernel)(*this, rays, answers, counts);
+}
+
+}  // namespace pah
+#endif

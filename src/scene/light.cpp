@@ -1,0 +1,15 @@
+#include <pah/scene/light.hpp>
+
+namespace pah {
+
+std::optional<ExactBundle> exact_bundle(const Light& light) {
+  if (const auto* point = std::get_if<PointLight>(&light.model))
+    return PointBundle{Vec3(point->position)};
+  if (const auto* spot = std::get_if<SpotLight>(&light.model))
+    return PointBundle{Vec3(spot->position)};
+  const auto* sun = std::get_if<DirectionalLight>(&light.model);
+  if (sun == nullptr || sun->angle > 0) return {};
+  return ParallelBundle{Vec3(-glm::normalize(sun->direction))};
+}
+
+}  // namespace pah
