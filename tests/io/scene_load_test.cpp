@@ -1,4 +1,6 @@
 // Scenes that load: what they become.
+#include <tbb/task_arena.h>
+
 #include <pah/io/load_scene.hpp>
 #include <pah/scene/metal_presets.hpp>
 
@@ -324,6 +326,26 @@ TEST_CASE("the hash tells scenes apart, and knows the files") {
   write_text(folder / "a.tga", test::tga(1, 1, "abd"));
   CHECK(load_scene(file).hash != hash);
   CHECK(load("render: {seed: 1}").hash != load("render: {seed: 2}").hash);
+}
+
+TEST_CASE("the hash knows every block of a large file, whatever the threads") {
+  const TemporaryFolder folder;
+  std::string obj = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+  while (obj.size() < 2'500'000) obj += "# a comment\n";
+  const auto file = write_text(folder / "scene.yaml", "meshes: [{file: a.obj}]\n");
+  const auto hash_of = [&](const std::string& text) {
+    write_text(folder / "a.obj", text);
+    return load_scene(file).hash;
+  };
+  const std::string hash = hash_of(obj);
+  tbb::task_arena(1).execute([&] { CHECK(load_scene(file).hash == hash); });
+  for (const std::size_t near : {500'000UL, 1'500'000UL, 2'499'000UL}) {
+    std::string other = obj;
+    other[obj.find("comment", near)] = 'C';
+    CHECK(hash_of(other) != hash);
+  }
+  CHECK(hash_of(obj + "#\n") != hash);
+  CHECK(hash_of(obj) == hash);
 }
 
 TEST_CASE("the hash is FNV-1a of 128 bits") {

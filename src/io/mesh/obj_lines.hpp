@@ -5,6 +5,7 @@
 
 namespace pah {
 
+// Elements in the order of their numbers in a corner.
 enum class ObjStatement { other, position, uv, normal, face };
 
 [[nodiscard]] ObjStatement obj_statement(std::string_view keyword);

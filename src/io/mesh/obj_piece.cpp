@@ -14,27 +14,42 @@ constexpr std::string_view silent[] = {
     "o",      "g",      "s",     "l",        "p",        "vp",         "mg",        "lod",
     "usemap", "maplib", "bevel", "c_interp", "d_interp", "shadow_obj", "trace_obj", "end"};
 
+// As std::from_chars(), but faster for short numbers without a sign, as most are.
+std::from_chars_result read_whole(const char* at, const char* last, std::int64_t& number) {
+  constexpr std::ptrdiff_t most_digits = 9;
+  const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
+  const char* const enough = at + std::min(last - at, most_digits);
+  std::uint32_t value = 0;
+  const char* digit = at;
+  for (; digit < enough && is_digit(*digit); ++digit)
+    value = 10 * value + static_cast<std::uint32_t>(*digit - '0');
+  if (digit == at || (digit < last && is_digit(*digit))) return std::from_chars(at, last, number);
+  number = value;
+  return {digit, std::errc{}};
+}
+
 }  // namespace
 
 ObjPlace place_behind(std::string_view text, const ObjPlace& place) {
   ObjPlace behind = place;
-  ObjLines lines(text, place.line_end, place.lines);
-  while (lines.next()) {
-    if (!lines.begins()) continue;
-    switch (obj_statement(Words(lines.text()).next())) {
-      case ObjStatement::position:
-        ++behind.counts[0];
-        break;
-      case ObjStatement::uv:
-        ++behind.counts[1];
-        break;
-      case ObjStatement::normal:
-        ++behind.counts[2];
-        break;
-      default:
-        break;
+  const auto count = [&](std::string_view line) {
+    const auto element = static_cast<std::size_t>(obj_statement(Words(line).next())) -
+                         static_cast<std::size_t>(ObjStatement::position);
+    if (element < behind.counts.size()) ++behind.counts[element];
+  };
+  // Without a backslash every line is a statement.
+  if (place.lines > 0 && text.find('\\') == std::string_view::npos) {
+    while (!text.empty()) {
+      const std::size_t size = std::min(text.find(place.line_end), text.size());
+      if (size > 0 && text.front() != 'f') count(text.substr(0, size));
+      text.remove_prefix(std::min(size + 1, text.size()));
+      ++behind.lines;
     }
+    return behind;
   }
+  ObjLines lines(text, place.line_end, place.lines);
+  while (lines.next())
+    if (lines.begins()) count(lines.text());
   behind.lines = lines.number();
   return behind;
 }
@@ -175,10 +190,12 @@ void ObjPiece::corner(const Words& words, std::string_view word) {
     std::uint32_t index = no_index;
     if (given) {
       std::int64_t number = 0;
-      const auto [end, error] = std::from_chars(at, last, number);
+      const auto [end, error] = read_whole(at, last, number);
       if (error != std::errc{} || number == 0) bad_corner(words, word);
       at = end;
-      index = index_of(element, number, words.column_of(word));
+      if (number < 0 || number > counts_[element])
+        number = unusual_number(element, number, words.column_of(word));
+      index = static_cast<std::uint32_t>(std::min<std::int64_t>(number - 1, no_index - 1));
     }
     corners[element].push_back(index);
   }
@@ -187,15 +204,14 @@ void ObjPiece::corner(const Words& words, std::string_view word) {
 }
 
 // Numbers count from 1, or back from the last.
-std::uint32_t ObjPiece::index_of(std::size_t element, std::int64_t number, int column) {
+std::int64_t ObjPiece::unusual_number(std::size_t element, std::int64_t number, int column) {
   const std::int64_t count = counts_[element];
   if (number < 0 && number < -count)
     fail(std::to_string(number) + " counts back beyond the first " + obj_elements[element], column);
-  if (number < 0) number += count + 1;
+  if (number < 0) return number + count + 1;
   Early& highest = early[element];
-  if (number > count && number > highest.number)
-    highest = {number, line_, column, excerpt_of(text_)};
-  return static_cast<std::uint32_t>(std::min<std::int64_t>(number - 1, no_index - 1));
+  if (number > highest.number) highest = {number, line_, column, excerpt_of(text_)};
+  return number;
 }
 
 void ObjPiece::bad_corner(const Words& words, std::string_view word) const {

@@ -73,7 +73,8 @@ class ObjPiece {
   void number(const Words& words, std::string_view word);
   void corner(const Words& words, std::string_view word);
   [[noreturn]] void bad_corner(const Words& words, std::string_view word) const;
-  [[nodiscard]] std::uint32_t index_of(std::size_t element, std::int64_t number, int column);
+  // The number from 1 that one below 1 or above the count so far means.
+  [[nodiscard]] std::int64_t unusual_number(std::size_t element, std::int64_t number, int column);
 
   ObjCounts counts_{};  // so far
   std::uint64_t triangles_before_ = 0;

@@ -82,7 +82,7 @@ class PlyReader {
     for (const PlyElement& element : header_.elements)
       if (element.name == "vertex") check_vertex(element);
     for (const PlyElement& element : header_.elements) {
-      element_ = &element;
+      begin(element);
       for (index_ = 0; index_ < element.count; ++index_) read_element(element);
     }
     finish(warnings);
@@ -104,6 +104,24 @@ class PlyReader {
                         std::to_string(element_->count));
   }
 
+  // Looks at names once, not for each of the element's many.
+  void begin(const PlyElement& element) {
+    element_ = &element;
+    is_vertex_ = element.name == "vertex";
+    is_face_ = element.name == "face";
+    is_strips_ = element.name == "tristrips";
+    slots_.clear();
+    uses_.clear();
+    for (const PlyProperty& property : element.properties) {
+      const bool corners = property.name == "vertex_indices" || property.name == "vertex_index";
+      slots_.push_back(slot_of(property.name));
+      uses_.push_back(corners && is_face_                       ? ListUse::corners
+                      : corners && is_strips_                   ? ListUse::strip
+                      : is_face_ && property.name == "texcoord" ? ListUse::uvs
+                                                                : ListUse::none);
+    }
+  }
+
   void check_vertex(const PlyElement& element) {
     if (has_vertices_) throw MeshFileError("the header has two elements 'vertex'");
     has_vertices_ = true;
@@ -119,7 +137,7 @@ class PlyReader {
 
   void read_element(const PlyElement& element) {
     if (text_) next_line();
-    if (element.name == "vertex")
+    if (is_vertex_)
       read_vertex(element);
     else
       read_other(element);
@@ -178,12 +196,13 @@ class PlyReader {
 
   void read_vertex(const PlyElement& element) {
     float values[slot_count] = {};
-    for (const PlyProperty& property : element.properties) {
+    for (std::size_t i = 0; i < element.properties.size(); ++i) {
+      const PlyProperty& property = element.properties[i];
       if (property.is_list) {
         read_list(property, ListUse::none);
         continue;
       }
-      const int slot = slot_of(property.name);
+      const int slot = slots_[i];
       if (slot < 0) {
         skip_number(property.type);
         continue;
@@ -199,23 +218,17 @@ class PlyReader {
   }
 
   void read_other(const PlyElement& element) {
-    const bool faces = element.name == "face";
-    const bool strips = element.name == "tristrips";
     list_.clear();
     uvs_.clear();
-    for (const PlyProperty& property : element.properties) {
-      if (!property.is_list) {
+    for (std::size_t i = 0; i < element.properties.size(); ++i) {
+      const PlyProperty& property = element.properties[i];
+      if (property.is_list)
+        read_list(property, uses_[i]);
+      else
         skip_number(property.type);
-        continue;
-      }
-      const bool corners = property.name == "vertex_indices" || property.name == "vertex_index";
-      read_list(property, corners && faces                       ? ListUse::corners
-                          : corners && strips                    ? ListUse::strip
-                          : faces && property.name == "texcoord" ? ListUse::uvs
-                                                                 : ListUse::none);
     }
-    if (faces) add_face();
-    if (strips) add_strip();
+    if (is_face_) add_face();
+    if (is_strips_) add_strip();
   }
 
   void read_list(const PlyProperty& property, ListUse use) {
@@ -322,6 +335,11 @@ class PlyReader {
   // The element at hand.
   const PlyElement* element_ = nullptr;
   std::uint64_t index_ = 0;
+  bool is_vertex_ = false;
+  bool is_face_ = false;
+  bool is_strips_ = false;
+  std::vector<int> slots_;     // of its properties, as numbers of a vertex
+  std::vector<ListUse> uses_;  // of its properties, as lists of a face or strip
   std::string_view line_;
   std::string_view word_;  // of the number read last
   Words words_{""};

@@ -27,19 +27,22 @@ bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
 // Reads [+|-]digits[.digits][(e|E)[+|-]digits], with digits on either side of the point.
 bool read_decimal(const char* at, const char* end, Decimal& number) {
-  bool any = false;
-  const auto take = [&] {
-    any = true;
-    number.digits = 10 * number.digits + static_cast<std::uint64_t>(*at++ - '0');
-    number.count += number.count > 0 || number.digits > 0 ? 1 : 0;
+  // How many digits there are.
+  const auto take_digits = [&] {
+    const char* const first = at;
+    if (number.count == 0)
+      while (at < end && *at == '0') ++at;
+    const char* const significant = at;
+    for (; at < end && is_digit(*at); ++at)
+      number.digits = 10 * number.digits + static_cast<std::uint64_t>(*at - '0');
+    number.count += static_cast<int>(at - significant);
+    return static_cast<int>(at - first);
   };
-  while (at < end && is_digit(*at)) take();
+  bool any = take_digits() > 0;
   if (at < end && *at == '.') {
     ++at;
-    while (at < end && is_digit(*at)) {
-      take();
-      --number.exponent;
-    }
+    number.exponent = -take_digits();
+    any |= number.exponent < 0;
   }
   if (!any) return false;
   if (at < end && (*at == 'e' || *at == 'E')) {

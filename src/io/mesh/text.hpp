@@ -6,7 +6,10 @@
 
 namespace pah {
 
-[[nodiscard]] inline bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
+[[nodiscard]] inline bool is_blank(char c) {
+  // One comparison for most characters.
+  return static_cast<unsigned char>(c) <= ' ' && (c == ' ' || c == '\t' || c == '\r');
+}
 
 // The words of one line.
 class Words {

@@ -16,11 +16,15 @@ namespace pah {
 class ContentHash {
  public:
   void add(std::string_view bytes);
+  // As add(), but eight bytes in a step, which is as much faster and gives another hash.
+  void add_words(std::string_view bytes);
   // With its length, so that neighbors do not run together.
   void add_part(std::string_view bytes);
   [[nodiscard]] std::string hex() const;
 
  private:
+  void step(std::uint64_t bits);
+
   std::uint64_t high_ = 0x6C62272E07BB0142U;
   std::uint64_t low_ = 0x62B821756295C58DU;
 };

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <type_traits>
 
+#include "io/extension.hpp"
 #include "io/mesh/folder.hpp"
 #include "io/yaml/suggest.hpp"
 
@@ -35,8 +36,12 @@ std::string_view bytes_of(const std::vector<T>& values) {
 }
 
 // What a mesh file gets from the files that it names in turn.
-void hash_content(ContentHash& hash, MeshFile& file) {
+void hash_content(ContentHash& hash, const std::filesystem::path& path, MeshFile& file) {
+  const std::string extension = lower_extension(path);
+  // Others hold their geometry themselves.
+  const bool names_geometry = extension == ".gltf" || extension == ".glb";
   for (const Mesh& mesh : file.meshes) {
+    if (!names_geometry) break;
     hash.add_part(bytes_of(mesh.positions));
     hash.add_part(bytes_of(mesh.normals));
     hash.add_part(bytes_of(mesh.uvs));
@@ -50,8 +55,9 @@ void hash_content(ContentHash& hash, MeshFile& file) {
 }
 
 // Reads the file into the scene; the ids in it become the scene's.
-ImportedFile add_file(SceneReading& reading, MeshFile file, const Mark& mark) {
-  hash_content(reading.files.hash(), file);
+ImportedFile add_file(SceneReading& reading, const std::filesystem::path& path, MeshFile file,
+                      const Mark& mark) {
+  hash_content(reading.files.hash(), path, file);
   Scene& scene = reading.scene;
   const auto first_mesh = static_cast<MeshId>(scene.meshes.size());
   const auto first_material = static_cast<MaterialId>(scene.materials.size());
@@ -175,7 +181,7 @@ const ImportedFile* import_file(SceneReading& reading, const YamlNode& node, con
     MeshFile file = read_mesh_file(*path, options);
     for (const std::string& warning : file.warnings)
       reading.context.errors.warn(node.mark, "mesh file '" + node.text + "': " + warning);
-    return &reading.imported.emplace(key, add_file(reading, std::move(file), node.mark))
+    return &reading.imported.emplace(key, add_file(reading, *path, std::move(file), node.mark))
                 .first->second;
   } catch (const MeshFileError& error) {
     reading.context.errors.add(node.mark, located_message(node.text, error));
