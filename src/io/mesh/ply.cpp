@@ -110,6 +110,7 @@ class PlyReader {
     is_vertex_ = element.name == "vertex";
     is_face_ = element.name == "face";
     is_strips_ = element.name == "tristrips";
+    reserve(element.count);
     slots_.clear();
     uses_.clear();
     for (const PlyProperty& property : element.properties) {
@@ -119,6 +120,21 @@ class PlyReader {
                       : corners && is_strips_                   ? ListUse::strip
                       : is_face_ && property.name == "texcoord" ? ListUse::uvs
                                                                 : ListUse::none);
+    }
+  }
+
+  // Room for what most files have; never more than the file can hold, whatever its header tells.
+  void reserve(std::uint64_t count) {
+    constexpr std::uint64_t least_bytes = 12;  // three floats or numbers of vertices
+    const auto expected = static_cast<std::size_t>(std::min(count, file_.left() / least_bytes));
+    if (is_vertex_) {
+      mesh_.positions.reserve(expected);
+      mesh_.normals.reserve(has_normals_ ? expected : 0);
+      mesh_.uvs.reserve(has_uvs_ ? expected : 0);
+    }
+    if (is_face_) {
+      mesh_.corners.reserve(3 * expected);
+      mesh_.face_sizes.reserve(expected);
     }
   }
 
