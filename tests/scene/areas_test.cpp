@@ -6,7 +6,6 @@
 
 #include "catch.hpp"
 #include "render/camera_rays.hpp"
-#include "render/sampler.hpp"
 
 using namespace pah;
 
@@ -187,8 +186,11 @@ TEST_CASE("the camera's area holds its rays to the end of the scene") {
     for (int y = 0; y < scene.film.height; ++y)
       for (int x = 0; x < scene.film.width; ++x)
         for (std::uint32_t i = 0; i < 4; ++i) {
-          Sampler sampler(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y), i, 0);
-          const Ray ray = rays.generate(x, y, sampler).ray;
+          DrawnNumbers drawn;
+          drawn.set(0, Sampler(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y), i, 0));
+          drawn.draw(rays.dimensions());
+          NumberReader numbers(drawn, 0);
+          const Ray ray = rays.generate(x, y, numbers).ray;
           CHECK(ray.bundle == camera_bundle);
           const double end = leaves_box(ray, world.bounds);
           reaching += end > 0 ? 1 : 0;
