@@ -23,9 +23,9 @@ constexpr double most_cells_across = 16384;
 // Cells that a block covers beyond these are worth a bound of their own depth.
 constexpr std::uint32_t few_cells = 4;
 
-std::variant<CubeView, ParallelView> view_of(const ExactBundle& bundle) {
+std::variant<CubeView, ParallelView> view_of(const ExactBundle& bundle, const Aabb& box) {
   if (const auto* point = std::get_if<PointBundle>(&bundle)) return CubeView(*point);
-  return ParallelView(std::get<ParallelBundle>(bundle));
+  return ParallelView(std::get<ParallelBundle>(bundle), box.center());
 }
 
 Aabb bounds_of(const Bvh& bvh) {
@@ -49,11 +49,17 @@ double error_of(const PointBundle& bundle, const Aabb& origins) {
   const DVec3 away =
       glm::max(glm::abs(DVec3(origins.min) - eye), glm::abs(DVec3(origins.max) - eye));
   const DVec3 size = DVec3(origins.max) - DVec3(origins.min);
-  return double{rounding_bound(32)} * std::max({away.x, away.y, away.z, size.x, size.y, size.z});
+  return double{rounding_bound(40)} * std::max({away.x, away.y, away.z, size.x, size.y, size.z});
 }
 double error_of(const ParallelBundle& /*bundle*/, const Aabb& origins) {
   const DVec3 size = DVec3(origins.max) - DVec3(origins.min);
-  return std::sqrt(3.0) * double{rounding_bound(32)} * std::max({size.x, size.y, size.z});
+  return std::sqrt(3.0) * double{rounding_bound(36)} * std::max({size.x, size.y, size.z});
+}
+
+float rounded_down(double x) {
+  const auto rounded = static_cast<float>(x);
+  return double{rounded} > x ? std::nextafter(rounded, -std::numeric_limits<float>::infinity())
+                             : rounded;
 }
 
 // What a face sees: where, and how many triangles.
@@ -156,20 +162,25 @@ class Builder {
       if (extent.triangles == 0) continue;
       Range u = extent.u, v = extent.v;
       if (std::is_same_v<View, CubeView>) {
-        u = {std::max(u.min, -1.0), std::min(u.max, 1.0)};
-        v = {std::max(v.min, -1.0), std::min(v.max, 1.0)};
+        // Tangents of the face's border, rounded.
+        constexpr double border = 1 + 0x1p-20;
+        u = {std::max(u.min, -border), std::min(u.max, border)};
+        v = {std::max(v.min, -border), std::min(v.max, border)};
         if (u.empty() || v.empty()) continue;
       }
-      const double width = u.max - u.min, height = v.max - v.min;
+      GridFace& face = grid_.faces[i];
+      face.u = rounded_down(u.min);
+      face.v = rounded_down(v.min);
+      const double width = u.max - double{face.u}, height = v.max - double{face.v};
       const double wanted =
           std::sqrt(cells_per_triangle * static_cast<double>(extent.triangles) / (width * height));
-      GridFace& face = grid_.faces[i];
-      face.u = u.min;
-      face.v = v.min;
-      const double cells_per_length = std::min(wanted, most_cells_across / std::max(width, height));
-      face.per_length = GridFace::places * cells_per_length;
-      face.columns = static_cast<std::uint32_t>(width * cells_per_length) + 1;
-      face.rows = static_cast<std::uint32_t>(height * cells_per_length) + 1;
+      face.per_length = static_cast<float>(
+          GridFace::places * std::min(wanted, most_cells_across / std::max(width, height)));
+      const auto count = [&](double length) {
+        return static_cast<std::uint32_t>(length * double{face.per_length} / GridFace::places) + 1;
+      };
+      face.columns = count(width);
+      face.rows = count(height);
       face.first_cell = cells;
       cells += face.columns * face.rows;
     }
@@ -192,7 +203,7 @@ class Builder {
   };
   [[nodiscard]] static std::optional<Places> places_of(const Range& range, double first,
                                                        double per_length, std::uint32_t cells) {
-    const double most = static_cast<double>(cells) * GridFace::places;
+    const auto most = static_cast<double>(cells) * GridFace::places;
     const double low = std::floor((range.min - first) * per_length);
     const double high = std::floor((range.max - first) * per_length);
     if (!(low < most && high >= 0)) return {};
@@ -214,7 +225,7 @@ class Builder {
     }
     const auto rows = places_of(v, face.v, face.per_length, face.rows);
     if (!rows) return;
-    const double side = GridFace::places / face.per_length;
+    const double side = GridFace::places / double{face.per_length};
     for (std::uint32_t row = rows->first_cell(); row <= rows->last_cell(); ++row) {
       const Range strip{face.v + row * side, face.v + (row + 1) * side};
       Range u;
@@ -257,13 +268,8 @@ class Builder {
   }
 
   // The origin's depth is compared, which a hit's may exceed by an error: another covers what the
-  // plane of a triangle is off, and the rounding to float.
-  [[nodiscard]] float stored(double nearest) const {
-    const double lower = nearest - 2 * error_;
-    const auto rounded = static_cast<float>(lower);
-    return rounded > lower ? std::nextafter(rounded, -std::numeric_limits<float>::infinity())
-                           : rounded;
-  }
+  // plane of a triangle is off.
+  [[nodiscard]] float stored(double nearest) const { return rounded_down(nearest - 2 * error_); }
 
   void place() {
     const std::size_t blocks = grid_.bvh->blocks.size();
@@ -339,7 +345,7 @@ std::vector<std::uint32_t> blocks_near(const Bvh& bvh, const Vec3& eye, double d
 }  // namespace
 
 LightGrid::LightGrid(const Bvh& over, const ExactBundle& bundle)
-    : bvh(&over), view(view_of(bundle)) {
+    : bvh(&over), view(view_of(bundle, bounds_of(over))) {
   const Aabb box = bounds_of(over);
   // Rays start on triangles, or a little off them.
   const float around = 0x1p-10F * (box.empty() ? 0 : largest_of(box.extent()));

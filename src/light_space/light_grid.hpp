@@ -4,13 +4,19 @@
 //
 // Why no answer changes. The shared rule (geometry/ray_triangle.hpp) finds a triangle hit only if
 // the ray's point at t lies within 30 u M of it along every axis, M being the largest distance
-// along an axis from the ray's origin to a vertex, u the unit roundoff. For a ray of the bundle
-// that point is off the exact line through the origin and the light by u M at most: by the rounding
-// of its direction, eye - origin. So the exact line, which the light sees as one point, passes the
-// triangle within 31 u M. 1 u M is left for what doubles round on the way. A cell lists every block
-// with a triangle that is seen within that (outline.hpp) of any of its points, and look-up and
-// lists round a coordinate to its cell by one monotone formula. Rays for which this does not hold,
-// or that start where M would be larger, are not answered.
+// along an axis from the ray's origin, or the light, to a vertex, u the unit roundoff. For a ray of
+// the bundle that point is off the exact line through the origin and the light by u M at most: by
+// the rounding of its direction, eye - origin. So the exact line, which the light sees as one
+// point, passes the triangle within 31 u M.
+//
+// Looking up rounds, too, as if the point were seen a little off. For a point light a tangent, of
+// at most 1, has 4 roundings, its distance from the face's corner, of at most 2, one, and that in
+// cells another: 8 u M. For a direction by 5 roundings of three products of no
+// more than sqrt(3)/2 M in all, and 2 of a distance of sqrt(3) M: 8 u M, across the rays.
+//
+// A cell lists every block with a triangle that is seen within all of that (outline.hpp) of any of
+// its points. Rays for which this does not hold, or that start where M would be larger, are not
+// answered.
 #pragma once
 
 #include <pah/geometry/aabb.hpp>
@@ -26,8 +32,8 @@ namespace pah {
 struct GridFace {
   static constexpr std::uint32_t places = 128;
 
-  double u = 0, v = 0;    // of the first cell's corner
-  double per_length = 0;  // places
+  float u = 0, v = 0;    // of the first cell's corner
+  float per_length = 0;  // places
   std::uint32_t columns = 0, rows = 0;
   std::uint32_t first_cell = 0;
 };

@@ -7,13 +7,9 @@
 
 namespace pah {
 
-// A place as the light sees it: where on a face, and how far from the light, along the face's axis.
-struct LightPoint {
-  double u, v, depth;
-};
-
 // The light's view of space: the six faces of a cube about a point, each with tangents from -1 to
-// 1, or for parallel rays one plane across them, in units of length.
+// 1, or for parallel rays one plane across them, in units of length. A place is where on a face, u
+// and v, and how far from the light along the face's axis: its depth.
 class CubeView {
  public:
   static constexpr int faces = 6;
@@ -22,45 +18,39 @@ class CubeView {
 
   // Along the axes of a face, the third being the one that the face is across.
   [[nodiscard]] DVec3 local(int face, const DVec3& point) const {
-    const DVec3 w = point - eye_;
+    const DVec3 w = point - DVec3(eye_);
     const int z = face % 3;
     return {w[(z + 1) % 3], w[(z + 2) % 3], face < 3 ? w[z] : -w[z]};
   }
-  // Of a point other than the eye.
-  [[nodiscard]] int face_of(const DVec3& point) const {
-    const DVec3 w = point - eye_;
-    const DVec3 size = glm::abs(w);
-    const int z = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
-    return w[z] < 0 ? z + 3 : z;
-  }
-  [[nodiscard]] static LightPoint seen(const DVec3& local) {
-    return {local.x / local.z, local.y / local.z, local.z};
-  }
-  [[nodiscard]] bool holds(const Ray& ray) const {
-    return ray.t_max <= 1 && Vec3(eye_) - ray.origin == ray.direction;
-  }
+  [[nodiscard]] const Vec3& eye() const { return eye_; }
 
  private:
-  DVec3 eye_;  // floats all
+  Vec3 eye_;
 };
 
 class ParallelView {
  public:
   static constexpr int faces = 1;
 
-  explicit ParallelView(const ParallelBundle& bundle)
-      : toward_(bundle.toward), basis_(orthonormal_basis(DVec3(bundle.toward))) {}
+  ParallelView(const ParallelBundle& bundle, const Vec3& center)
+      : toward_(bundle.toward),
+        center_(center),
+        basis_(orthonormal_basis(DVec3(bundle.toward))),
+        rounded_(basis_) {}
 
   [[nodiscard]] DVec3 local(int /*face*/, const DVec3& point) const {
-    return {glm::dot(basis_[0], point), glm::dot(basis_[1], point), -glm::dot(basis_[2], point)};
+    const DVec3 w = point - DVec3(center_);
+    return {glm::dot(basis_[0], w), glm::dot(basis_[1], w), -glm::dot(basis_[2], w)};
   }
-  [[nodiscard]] static int face_of(const DVec3& /*point*/) { return 0; }
-  [[nodiscard]] static LightPoint seen(const DVec3& local) { return {local.x, local.y, local.z}; }
-  [[nodiscard]] bool holds(const Ray& ray) const { return ray.direction == toward_; }
+  // The axes of u, v and, backwards, depth.
+  [[nodiscard]] const glm::mat3& axes() const { return rounded_; }
+  [[nodiscard]] const Vec3& center() const { return center_; }
+  [[nodiscard]] const Vec3& toward() const { return toward_; }
 
  private:
-  Vec3 toward_;
+  Vec3 toward_, center_;
   DMat3 basis_;
+  glm::mat3 rounded_;
 };
 
 }  // namespace pah

@@ -21,16 +21,49 @@ using Answer = LightGrid::Answer;
 constexpr std::size_t batch_size = 64;
 constexpr std::size_t most_blocks = 1024;
 
-// Where the light sees a ray's origin.
-struct Place {
-  std::uint32_t cell;
-  float depth;       // rounded up
-  PlaceBytes place;  // in the cell, with the eighth bits
+// Where the light sees the origins of a batch, in loops that are compiled to vectors.
+struct Seen {
+  alignas(64) float u[batch_size], v[batch_size], depth[batch_size];
+  alignas(64) std::int32_t face[batch_size];
 };
 
-HWY_INLINE float rounded_up(double x) {
-  const auto rounded = static_cast<float>(x);
-  return rounded < x ? rounded + std::abs(rounded) * 0x1p-23F + 0x1p-149F : rounded;
+HWY_INLINE void see(const CubeView& view, const float (&x)[batch_size],
+                    const float (&y)[batch_size], const float (&z)[batch_size], Seen& seen) {
+  const Vec3 eye = view.eye();
+  for (std::size_t i = 0; i < batch_size; ++i) {
+    const float wx = x[i] - eye.x, wy = y[i] - eye.y, wz = z[i] - eye.z;
+    const float ax = std::abs(wx), ay = std::abs(wy), az = std::abs(wz);
+    const bool along_x = ax >= ay && ax >= az;
+    const bool along_y = ay >= az;
+    const float w = along_x ? wx : along_y ? wy : wz;
+    const float a = along_x ? wy : along_y ? wz : wx;
+    const float b = along_x ? wz : along_y ? wx : wy;
+    const float inverse = 1 / std::abs(w);
+    seen.u[i] = a * inverse;
+    seen.v[i] = b * inverse;
+    seen.depth[i] = std::abs(w);
+    seen.face[i] = (along_x ? 0 : along_y ? 1 : 2) + (w < 0 ? 3 : 0);
+  }
+}
+
+HWY_INLINE void see(const ParallelView& view, const float (&x)[batch_size],
+                    const float (&y)[batch_size], const float (&z)[batch_size], Seen& seen) {
+  const Vec3 center = view.center();
+  const glm::mat3 axes = view.axes();
+  for (std::size_t i = 0; i < batch_size; ++i) {
+    const float wx = x[i] - center.x, wy = y[i] - center.y, wz = z[i] - center.z;
+    seen.u[i] = axes[0].x * wx + axes[0].y * wy + axes[0].z * wz;
+    seen.v[i] = axes[1].x * wx + axes[1].y * wy + axes[1].z * wz;
+    seen.depth[i] = -(axes[2].x * wx + axes[2].y * wy + axes[2].z * wz);
+    seen.face[i] = 0;
+  }
+}
+
+HWY_INLINE bool is_of(const CubeView& view, const Ray& ray) {
+  return ray.t_max <= 1 && view.eye() - ray.origin == ray.direction;
+}
+HWY_INLINE bool is_of(const ParallelView& view, const Ray& ray) {
+  return ray.direction == view.toward();
 }
 
 HWY_INLINE bool holds(const Aabb& box, const Vec3& p) {
@@ -38,22 +71,26 @@ HWY_INLINE bool holds(const Aabb& box, const Vec3& p) {
          p.y <= box.max.y && p.z <= box.max.z;
 }
 
-template <class View>
-HWY_INLINE Place place_of(const LightGrid& grid, const View& view, const Vec3& origin) {
-  const DVec3 point(origin);
-  const int side = view.face_of(point);
-  const GridFace& face = grid.faces[static_cast<std::size_t>(side)];
-  const LightPoint seen = View::seen(view.local(side, point));
-  const double u = (seen.u - face.u) * face.per_length;
-  const double v = (seen.v - face.v) * face.per_length;
+// Where a ray's origin is in the grid.
+struct Place {
+  std::uint32_t cell;
+  float depth;
+  PlaceBytes place;  // in the cell, with the eighth bits
+};
+
+HWY_INLINE Place place_of(const LightGrid& grid, const Seen& seen, std::size_t i) {
   constexpr std::uint32_t places = GridFace::places;
-  if (!(u >= 0 && v >= 0 && u < face.columns * places && v < face.rows * places))
-    return {static_cast<std::uint32_t>(grid.cells.size() - 1), 0, 0};
-  const auto place_u = static_cast<std::uint32_t>(u);
-  const auto place_v = static_cast<std::uint32_t>(v);
+  const GridFace& face = grid.faces[static_cast<std::size_t>(seen.face[i])];
+  const float u = (seen.u[i] - face.u) * face.per_length;
+  const float v = (seen.v[i] - face.v) * face.per_length;
+  const bool inside = u >= 0 && v >= 0 && u < static_cast<float>(face.columns * places) &&
+                      v < static_cast<float>(face.rows * places);
+  if (!inside) return {static_cast<std::uint32_t>(grid.cells.size() - 1), 0, 0};
+  const auto place_u = static_cast<std::uint32_t>(static_cast<std::int32_t>(u));
+  const auto place_v = static_cast<std::uint32_t>(static_cast<std::int32_t>(v));
   const std::uint32_t u_in = place_u % places, v_in = place_v % places;
-  return {face.first_cell + place_v / places * face.columns + place_u / places,
-          rounded_up(seen.depth), place_bytes(u_in, u_in, v_in, v_in) | eighth_bits};
+  return {face.first_cell + place_v / places * face.columns + place_u / places, seen.depth[i],
+          place_bytes(u_in, u_in, v_in, v_in) | eighth_bits};
 }
 
 // Appends the blocks of a cell that may be between the light and a place.
@@ -130,15 +167,19 @@ HWY_INLINE void test(const LightGrid& grid, std::span<const Ray> rays, std::span
 template <bool counting, class View>
 HWY_INLINE void look_up(const LightGrid& grid, const View& view, std::span<const Ray> rays,
                         std::span<Answer> answers, TraversalCounts& counts) {
+  alignas(64) float x[batch_size] = {}, y[batch_size] = {}, z[batch_size] = {};
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    x[i] = rays[i].origin.x;
+    y[i] = rays[i].origin.y;
+    z[i] = rays[i].origin.z;
+  }
+  Seen seen;
+  see(view, x, y, z, seen);
   Place places[batch_size];
   for (std::size_t i = 0; i < rays.size(); ++i) {
-    const Ray& ray = rays[i];
-    if (!view.holds(ray) || !holds(grid.origins, ray.origin)) {
-      answers[i] = Answer::unknown;
-      continue;
-    }
-    answers[i] = Answer::free;
-    places[i] = place_of(grid, view, ray.origin);
+    answers[i] = is_of(view, rays[i]) && holds(grid.origins, rays[i].origin) ? Answer::free
+                                                                             : Answer::unknown;
+    places[i] = place_of(grid, seen, i);
     __builtin_prefetch(&grid.cells[places[i].cell]);
   }
   for (std::size_t i = 0; i < rays.size(); ++i) {
