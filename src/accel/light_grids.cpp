@@ -52,7 +52,7 @@ class LightGridsOverBvh final : public LightGrids {
 
   [[nodiscard]] AcceleratorMemory memory() const override {
     AcceleratorMemory memory{.global_bvh = bvh_.memory_bytes()};
-    for (const LightGridReport& report : reports_) memory.local_bvhs += report.bytes;
+    for (const LightGridReport& report : reports_) memory.light_grids += report.bytes;
     memory.top_level = grids_.capacity() * sizeof(BundleGrid);
     return memory;
   }

@@ -265,6 +265,7 @@ ExitCode run_render(const RenderArguments& arguments) {
     report.film_bytes = result.film.bytes();
     report.accelerator_bytes = acceleration.accelerator->memory();
     report.influence_areas = report_areas(acceleration);
+    report.light_grids = report_grids(acceleration, world);
     report.error = estimate_error(result.film);
     report.warnings = warnings.count();
     report.seconds.render = result.seconds;

@@ -20,9 +20,6 @@ constexpr std::size_t blocks_a_task = 1024;
 constexpr double cells_per_triangle = 1;
 constexpr double most_cells_across = 16384;
 
-// Cells that a block covers beyond these are worth a bound of their own depth.
-constexpr std::uint32_t few_cells = 4;
-
 std::variant<CubeView, ParallelView> view_of(const ExactBundle& bundle, const Aabb& box) {
   if (const auto* point = std::get_if<PointBundle>(&bundle)) return CubeView(*point);
   return ParallelView(std::get<ParallelBundle>(bundle), box.center());
@@ -60,6 +57,10 @@ float rounded_down(double x) {
   const auto rounded = static_cast<float>(x);
   return double{rounded} > x ? std::nextafter(rounded, -std::numeric_limits<float>::infinity())
                              : rounded;
+}
+
+Range common(const Range& a, const Range& b) {
+  return {std::max(a.min, b.min), std::min(a.max, b.max)};
 }
 
 // What a face sees: where, and how many triangles.
@@ -114,11 +115,28 @@ class Builder {
     return count;
   }
 
+  // Whether rays come from where the face sees something of a box: what is sure not to be seen
+  // there need not be projected.
+  [[nodiscard]] bool may_see(int face, const Aabb& box) const {
+    if constexpr (std::is_same_v<View, CubeView>) {
+      if (grid_.faces[static_cast<std::size_t>(face)].columns == 0 && is_laid_out_) return false;
+      const DVec3 p = view_.local(face, DVec3(box.min)), q = view_.local(face, DVec3(box.max));
+      const DVec3 low = glm::min(p, q), high = glm::max(p, q);
+      // At twice the tangent of the border there is room for all errors.
+      return high.z > 0 && low.x <= 2 * high.z && high.x >= -2 * high.z && low.y <= 2 * high.z &&
+             high.y >= -2 * high.z;
+    }
+    return true;
+  }
+
   // Calls `use(face, outlines)` for every face that sees something of the block.
   template <typename Use>
   void for_each_face(const TriangleBlock& block, const Use& use) const {
     const std::size_t count = triangles_in(block);
+    Aabb box;
+    for (std::size_t i = 0; i < count; ++i) box.extend(block.triangle(i).bounds());
     for (int face = 0; face < View::faces; ++face) {
+      if (!may_see(face, box)) continue;
       Outlines outlines;
       for (std::size_t i = 0; i < count; ++i) {
         if (const auto outline = outline_on(view_, face, block.triangle(i), error_))
@@ -161,11 +179,15 @@ class Builder {
       const Extent& extent = extents[i];
       if (extent.triangles == 0) continue;
       Range u = extent.u, v = extent.v;
-      if (std::is_same_v<View, CubeView>) {
+      if constexpr (std::is_same_v<View, CubeView>) {
         // Tangents of the face's border, rounded.
         constexpr double border = 1 + 0x1p-20;
-        u = {std::max(u.min, -border), std::min(u.max, border)};
-        v = {std::max(v.min, -border), std::min(v.max, border)};
+        u = common(u, {-border, border});
+        v = common(v, {-border, border});
+        if (view_.is_cone()) {
+          u = common(u, view_.tangents(static_cast<int>(i), 0));
+          v = common(v, view_.tangents(static_cast<int>(i), 1));
+        }
         if (u.empty() || v.empty()) continue;
       }
       GridFace& face = grid_.faces[i];
@@ -185,6 +207,7 @@ class Builder {
       cells += face.columns * face.rows;
     }
     grid_.cells.resize(cells + std::size_t{1});
+    is_laid_out_ = true;
   }
 
   // The places along a row or column of cells that a range has, if any.
@@ -216,12 +239,10 @@ class Builder {
   void for_each_cell(const GridFace& face, std::uint32_t block, const Outlines& outlines,
                      const Use& use) const {
     Range v;
-    double nearest = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < outlines.size; ++i) {
       const Outline& outline = outlines.of[i];
       v.extend(outline.lowest_v() - outline.margin);
       v.extend(outline.highest_v() + outline.margin);
-      nearest = std::min(nearest, outline.nearest);
     }
     const auto rows = places_of(v, face.v, face.per_length, face.rows);
     if (!rows) return;
@@ -234,12 +255,10 @@ class Builder {
       if (!columns) continue;
       const std::uint32_t cells = face.first_cell + row * face.columns;
       const std::uint32_t first = columns->first_cell(), last = columns->last_cell();
-      const bool covers_many =
-          (last - first + 1) * (rows->last_cell() - rows->first_cell() + 1) > few_cells;
       for (std::uint32_t column = first; column <= last; ++column) {
         const DVec2 center(face.u + (column + 0.5) * side, strip.min + 0.5 * side);
-        const double bound = covers_many ? nearest_in(center, 0.5 * side, outlines) : nearest;
-        use(cells + column, Entry{stored(bound),
+        const double nearest = nearest_in(center, 0.5 * side, outlines);
+        use(cells + column, Entry{stored(nearest),
                                   place_bytes(columns->first_in(column), columns->last_in(column),
                                               rows->first_in(row), rows->last_in(row)),
                                   block});
@@ -320,11 +339,15 @@ class Builder {
       }
       grid_.cells[i].nearest = list.front().nearest;
     });
+    if constexpr (std::is_same_v<View, CubeView>) {
+      if (view_.is_cone()) grid_.cells.back().count = GridCell::unknown;
+    }
   }
 
   LightGrid& grid_;
   const View& view_;
   double error_;
+  bool is_laid_out_ = false;
   std::vector<std::vector<Placed>> tasks_;
   std::vector<std::atomic<std::uint32_t>> counts_;
 };

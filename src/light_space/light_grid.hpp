@@ -41,8 +41,10 @@ struct GridFace {
 // A cell's list: its blocks' least depths, ascending, as floats; then the places where something of
 // them is seen; then their numbers.
 struct GridCell {
+  static constexpr std::uint32_t unknown = 0xFFFFFFFFU;
+
   float nearest;        // depth of what is seen in it; infinite if there is nothing
-  std::uint32_t count;  // of blocks
+  std::uint32_t count;  // of blocks, or `unknown`
   std::uint64_t first;  // in LightGrid::lists
 };
 
@@ -82,7 +84,7 @@ class LightGrid {
   std::variant<CubeView, ParallelView> view;
   Aabb origins;  // where rays may start
   std::array<GridFace, CubeView::faces> faces{};
-  std::vector<GridCell> cells;  // by face, row and column; the last one is empty
+  std::vector<GridCell> cells;  // by face, row and column; the last one is what is outside of them
   std::vector<std::uint32_t> lists;
   std::vector<std::uint32_t> near_blocks;  // too near to the light to have a place on its faces
 };

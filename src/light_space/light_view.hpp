@@ -1,9 +1,10 @@
 // How the light of a bundle sees space: every ray of the bundle is a point there.
 #pragma once
 
-#include <cmath>
 #include <pah/geometry/basis.hpp>
 #include <pah/geometry/exact_bundle.hpp>
+
+#include "light_space/range.hpp"
 
 namespace pah {
 
@@ -14,7 +15,8 @@ class CubeView {
  public:
   static constexpr int faces = 6;
 
-  explicit CubeView(const PointBundle& bundle) : eye_(bundle.eye) {}
+  explicit CubeView(const PointBundle& bundle)
+      : eye_(bundle.eye), axis_(bundle.axis), sine_(double{bundle.sine}) {}
 
   // Along the axes of a face, the third being the one that the face is across.
   [[nodiscard]] DVec3 local(int face, const DVec3& point) const {
@@ -24,8 +26,15 @@ class CubeView {
   }
   [[nodiscard]] const Vec3& eye() const { return eye_; }
 
+  // Whether rays come from some directions only.
+  [[nodiscard]] bool is_cone() const { return sine_ < 1; }
+  // The tangents that they have along the first or second axis of a face.
+  [[nodiscard]] Range tangents(int face, int axis) const;
+
  private:
   Vec3 eye_;
+  DVec3 axis_;  // of the cone of rays
+  double sine_;
 };
 
 class ParallelView {

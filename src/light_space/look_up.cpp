@@ -183,6 +183,7 @@ HWY_INLINE void look_up(const LightGrid& grid, const View& view, std::span<const
     __builtin_prefetch(&grid.cells[places[i].cell]);
   }
   for (std::size_t i = 0; i < rays.size(); ++i) {
+    if (grid.cells[places[i].cell].count == GridCell::unknown) answers[i] = Answer::unknown;
     if (answers[i] != Answer::unknown)
       __builtin_prefetch(grid.lists.data() + grid.cells[places[i].cell].first);
   }

@@ -36,21 +36,6 @@ struct Outline {
   }
 };
 
-struct Range {
-  double min = std::numeric_limits<double>::infinity();
-  double max = -std::numeric_limits<double>::infinity();
-
-  [[nodiscard]] bool empty() const { return !(min <= max); }
-  void extend(double x) {
-    min = std::min(min, x);
-    max = std::max(max, x);
-  }
-  void extend(const Range& other) {
-    min = std::min(min, other.min);
-    max = std::max(max, other.max);
-  }
-};
-
 // What is nearer to a point light than this many errors has no place on a face: errors would move
 // it across the whole of it.
 inline constexpr double nearest_on_faces = 64;

@@ -37,4 +37,23 @@ std::vector<AreaReport> report_areas(const Acceleration& acceleration) {
   return reports;
 }
 
+std::vector<GridReport> report_grids(const Acceleration& acceleration, const World& world) {
+  std::vector<GridReport> reports;
+  std::size_t built = 0;
+  for (const GridPlan& plan : acceleration.grid_plans) {
+    GridReport report;
+    report.light = world.lights[plan.bundle].name;
+    report.built = plan.build;
+    report.reason = plan.reason;
+    report.expected_rays = plan.expected_rays;
+    if (plan.build) {
+      const LightGridReport& grid = acceleration.grids->reports()[built++];
+      report.build_seconds = grid.build_seconds;
+      report.bytes = grid.bytes;
+    }
+    reports.push_back(std::move(report));
+  }
+  return reports;
+}
+
 }  // namespace pah

@@ -47,6 +47,18 @@ JsonValue areas_json(const std::vector<AreaReport>& areas) {
   return json;
 }
 
+JsonValue grids_json(const std::vector<GridReport>& grids) {
+  JsonValue json = JsonValue::array();
+  for (const GridReport& grid : grids)
+    json.push_back({{"light", grid.light},
+                    {"built", grid.built},
+                    {"reason", grid.reason},
+                    {"expected_rays", grid.expected_rays},
+                    {"build_seconds", grid.build_seconds},
+                    {"bytes", grid.bytes}});
+  return json;
+}
+
 }  // namespace
 
 std::uint64_t peak_memory_bytes() {
@@ -80,10 +92,12 @@ std::string stats_json(const RenderReport& report) {
       {"rays", by_ray_kind([&](std::size_t kind) { return report.counts.rays[kind]; })},
       {"traversal", traversal_json(report.counts)},
       {"influence_areas", areas_json(report.influence_areas)},
+      {"light_grids", grids_json(report.light_grids)},
       {"memory_bytes",
        {{"scene", report.scene_bytes},
         {"global_bvh", structures.global_bvh},
         {"local_bvhs", structures.local_bvhs},
+        {"light_grids", structures.light_grids},
         {"top_level", structures.top_level},
         {"film", report.film_bytes}}},
       {"peak_memory_bytes", peak_memory_bytes()},

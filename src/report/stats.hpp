@@ -26,6 +26,16 @@ struct AreaReport {
   std::optional<std::uint64_t> sampled_rays;  // of them, that measured_global_cost is of
 };
 
+// The grid of a light that is a point or has one direction, and what became of it.
+struct GridReport {
+  std::string light;
+  bool built = false;
+  std::string reason;  // why it was built, or was not
+  double expected_rays = 0;
+  std::optional<double> build_seconds;  // null in the JSON where nothing was built
+  std::optional<std::uint64_t> bytes;
+};
+
 struct RenderReport {
   std::string version;
   std::string scene;  // as it was named
@@ -43,12 +53,15 @@ struct RenderReport {
   std::uint64_t scene_bytes = 0, film_bytes = 0;
   AcceleratorMemory accelerator_bytes;
   std::vector<AreaReport> influence_areas;
+  std::vector<GridReport> light_grids;
   ErrorEstimate error;
   int warnings = 0;
 };
 
 // After a render that counted its traversal.
 [[nodiscard]] std::vector<AreaReport> report_areas(const Acceleration& acceleration);
+[[nodiscard]] std::vector<GridReport> report_grids(const Acceleration& acceleration,
+                                                   const World& world);
 
 // The most memory that this process has held, in bytes.
 [[nodiscard]] std::uint64_t peak_memory_bytes();

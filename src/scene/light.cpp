@@ -1,3 +1,4 @@
+#include <cmath>
 #include <pah/scene/light.hpp>
 
 namespace pah {
@@ -6,7 +7,8 @@ std::optional<ExactBundle> exact_bundle(const Light& light) {
   if (const auto* point = std::get_if<PointLight>(&light.model))
     return PointBundle{Vec3(point->position)};
   if (const auto* spot = std::get_if<SpotLight>(&light.model))
-    return PointBundle{Vec3(spot->position)};
+    return PointBundle{Vec3(spot->position), Vec3(glm::normalize(spot->direction)),
+                       static_cast<float>(std::sin(glm::radians(spot->angle)))};
   const auto* sun = std::get_if<DirectionalLight>(&light.model);
   if (sun == nullptr || sun->angle > 0) return {};
   return ParallelBundle{Vec3(-glm::normalize(sun->direction))};

@@ -114,6 +114,7 @@ TEST_CASE("A grid of a light answers like brute force, bit for bit") {
       const Vec3 eye = random.in_box({Vec3{-2}, Vec3{2}});
       setup.check(PointBundle{eye}, 3000, round);
       setup.check(PointBundle{100.0F * eye}, 1000, round);
+      setup.check(PointBundle{eye, glm::normalize(-eye), 0.3F}, 3000, round);
       setup.check(ParallelBundle{glm::normalize(eye)}, 3000, round);
     }
   }

@@ -61,7 +61,7 @@ TEST_CASE("wrong usage exits with 2 and says what is wrong") {
   check_failure({"scene.yaml", "-o", "there"}, 2,
                 "-o there is a directory; name a file in it: there/scene.png");
   check_failure({"scene.yaml", "-o", "."}, 2, "name a file in it: ./scene.png");
-  check_failure({"scene.yaml", "--accel", "magic"}, 2, "bvh, local, brute_force");
+  check_failure({"scene.yaml", "--accel", "magic"}, 2, "bvh, local, light, brute_force");
   check_failure({"scene.yaml", "--spp", "0"}, 2, "--spp");
   check_failure({"scene.yaml", "--spp", "many"}, 2, "--spp");
   check_failure({"scene.yaml", "--width", "65537"}, 2, "--width");

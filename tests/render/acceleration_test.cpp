@@ -69,6 +69,32 @@ TEST_CASE("declared areas are built, derived ones are not yet worth it") {
   CHECK(make_acceleration(world, scene).name == "bvh");
 }
 
+TEST_CASE("lights have grids where so many rays go to them that it pays") {
+  Scene scene = scene_with_area();
+  scene.influence_areas.declared.clear();
+  const std::size_t small = make_world(scene).triangles().size();
+  Mesh& mesh = scene.meshes.front();
+  mesh.triangles.insert(mesh.triangles.end(), 20'000, mesh.triangles.front());
+  const World world = make_world(scene);
+  REQUIRE(world.triangles().size() > small + 10'000);
+
+  scene.render.samples = 1 << 20;
+  const Acceleration acceleration = make_acceleration(world, scene);
+  CHECK(acceleration.name == "light");
+  REQUIRE(acceleration.grids != nullptr);
+  REQUIRE(!acceleration.grid_plans.empty());
+  for (const GridPlan& plan : acceleration.grid_plans) CHECK(plan.build);
+  CHECK(acceleration.grids->reports().size() == acceleration.grid_plans.size());
+
+  scene.influence_areas.derive = false;
+  CHECK(make_acceleration(world, scene).name == "bvh");
+  scene.influence_areas.derive = true;
+  scene.render.samples = 1;
+  const Acceleration few = make_acceleration(world, scene);
+  CHECK(few.name == "bvh");
+  for (const GridPlan& plan : few.grid_plans) CHECK(!plan.build);
+}
+
 TEST_CASE("an accelerator that is asked for by name is made, and no other") {
   const Scene scene = scene_with_area();
   const World world = make_world(scene);
@@ -76,6 +102,7 @@ TEST_CASE("an accelerator that is asked for by name is made, and no other") {
     const Acceleration acceleration = make_acceleration(world, scene, known.name);
     CHECK(acceleration.name == known.name);
     CHECK((acceleration.local != nullptr) == (known.name == "local"));
+    CHECK((acceleration.grids != nullptr) == (known.name == "light"));
     for (const AreaPlan& plan : acceleration.plans)
       if (known.name != "local") CHECK(!plan.build);
   }

@@ -20,6 +20,7 @@ namespace pah {
 struct AcceleratorMemory {
   std::uint64_t global_bvh = 0;  // bytes
   std::uint64_t local_bvhs = 0;
+  std::uint64_t light_grids = 0;
   std::uint64_t top_level = 0;
 };
 

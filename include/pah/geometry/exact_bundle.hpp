@@ -6,9 +6,13 @@
 
 namespace pah {
 
-// Segments that end at `eye`: their direction is eye - origin, rounded, and t_max at most 1.
+// Segments that end at `eye`: their direction is eye - origin, rounded, and t_max at most 1. They
+// start within a cone about `axis`, of unit length, whose half-angle has a sine of `sine`, or
+// anywhere if that is 1.
 struct PointBundle {
   Vec3 eye{0};
+  Vec3 axis{0, 0, 1};
+  float sine = 1;
 };
 
 // Rays whose direction is `toward`, bit by bit: of unit length up to rounding.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <pah/accel/light_grids.hpp>
 #include <pah/accel/plan.hpp>
 #include <pah/scene/areas.hpp>
 #include <pah/scene/scene.hpp>
@@ -16,22 +17,24 @@ struct AcceleratorName {
   std::string_view what;
 };
 
-// "bvh", "local", "brute_force" and, where it was found, "embree", and what they are.
+// "bvh", "local", "light", "brute_force" and, where it was found, "embree", and what they are.
 [[nodiscard]] std::span<const AcceleratorName> accelerator_names();
 
 struct Acceleration {
   std::string_view name;  // one of accelerator_names()
   std::unique_ptr<Accelerator> accelerator;
-  std::vector<SceneArea> areas;      // declared, then derived
-  std::vector<AreaPlan> plans;       // for each area
-  const LocalBvhs* local = nullptr;  // the accelerator, if it has areas: those built, in order
+  std::vector<SceneArea> areas;       // declared, then derived
+  std::vector<AreaPlan> plans;        // for each area
+  std::vector<GridPlan> grid_plans;   // for each light that is a point or has one direction
+  const LocalBvhs* local = nullptr;   // the accelerator, if it has areas: those built, in order
+  const LightGrids* grids = nullptr;  // the accelerator, if it has grids: those built, in order
 };
 
-// Of `settings` it takes influence_areas, acceleration and film; the geometry is the world's, which
-// must outlive the accelerator. `name` is one of accelerator_names(), or empty: then it is local if
-// there is an area to build, and bvh otherwise. Builds by the calling arena's threads. The
-// accelerator's answers are the same to the last bit whatever the settings, but for Embree's.
-// Throws std::invalid_argument for another name, and as areas_of does.
+// Of `settings` it takes influence_areas, acceleration, film and render; the geometry is the
+// world's, which must outlive the accelerator. `name` is one of accelerator_names(), or empty: then
+// it is local if there is an area to build, and bvh otherwise. Builds by the calling arena's
+// threads. The accelerator's answers are the same to the last bit whatever the settings, but for
+// Embree's. Throws std::invalid_argument for another name, and as areas_of does.
 [[nodiscard]] Acceleration make_acceleration(const World& world, const Scene& settings,
                                              std::string_view name = {});
 

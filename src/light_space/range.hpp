@@ -1,0 +1,23 @@
+#pragma once
+
+#include <algorithm>
+#include <limits>
+
+namespace pah {
+
+struct Range {
+  double min = std::numeric_limits<double>::infinity();
+  double max = -std::numeric_limits<double>::infinity();
+
+  [[nodiscard]] bool empty() const { return !(min <= max); }
+  void extend(double x) {
+    min = std::min(min, x);
+    max = std::max(max, x);
+  }
+  void extend(const Range& other) {
+    min = std::min(min, other.min);
+    max = std::max(max, other.max);
+  }
+};
+
+}  // namespace pah
