@@ -18,7 +18,7 @@ AreaPlan plan(const LocalArea& area) {
 // twice, since what rays a render sends is only guessed.
 GridPlan plan_grid(std::uint32_t bundle, std::size_t triangles, double expected_rays) {
   constexpr std::size_t fewest_triangles = 10'000;
-  constexpr double rays_a_triangle = 2 * 8;
+  constexpr double rays_a_triangle = 2 * 16;
   if (triangles < fewest_triangles)
     return {bundle, expected_rays, false, "the BVH of so few triangles is as fast as a grid"};
   if (expected_rays < rays_a_triangle * static_cast<double>(triangles))

@@ -20,6 +20,11 @@ constexpr std::size_t blocks_a_task = 1024;
 constexpr double cells_per_triangle = 1;
 constexpr double most_cells_across = 16384;
 
+// Where large triangles overlap, so many cells would list most of them: then there are fewer cells.
+// At last there is one a face, which lists a block once.
+constexpr std::uint64_t most_entries_a_block = 32;
+static_assert(most_entries_a_block > CubeView::faces);
+
 std::variant<CubeView, ParallelView> view_of(const ExactBundle& bundle, const Aabb& box) {
   if (const auto* point = std::get_if<PointBundle>(&bundle)) return CubeView(*point);
   return ParallelView(std::get<ParallelBundle>(bundle), box.center());
@@ -96,8 +101,11 @@ class Builder {
       : grid_(grid), view_(view), error_(error) {}
 
   void build() {
-    lay_out(extents());
-    place();
+    const Extents seen = extents();
+    for (double density = cells_per_triangle;; density /= 4) {
+      lay_out(seen, density);
+      if (place()) break;
+    }
     sort();
   }
 
@@ -173,7 +181,7 @@ class Builder {
         });
   }
 
-  void lay_out(const Extents& extents) {
+  void lay_out(const Extents& extents, double density) {
     std::uint32_t cells = 0;
     for (std::size_t i = 0; i < extents.size(); ++i) {
       const Extent& extent = extents[i];
@@ -195,7 +203,7 @@ class Builder {
       face.v = rounded_down(v.min);
       const double width = u.max - double{face.u}, height = v.max - double{face.v};
       const double wanted =
-          std::sqrt(cells_per_triangle * static_cast<double>(extent.triangles) / (width * height));
+          std::sqrt(density * static_cast<double>(extent.triangles) / (width * height));
       face.per_length = static_cast<float>(
           GridFace::places * std::min(wanted, most_cells_across / std::max(width, height)));
       const auto count = [&](double length) {
@@ -290,14 +298,20 @@ class Builder {
   // plane of a triangle is off.
   [[nodiscard]] float stored(double nearest) const { return rounded_down(nearest - 2 * error_); }
 
-  void place() {
+  // False if that takes too many entries.
+  [[nodiscard]] bool place() {
     const std::size_t blocks = grid_.bvh->blocks.size();
-    tasks_.resize((blocks + blocks_a_task - 1) / blocks_a_task);
+    const std::uint64_t most = most_entries_a_block * blocks;
+    std::atomic<std::uint64_t> total = 0;
+    tasks_.assign((blocks + blocks_a_task - 1) / blocks_a_task, {});
     counts_ = std::vector<std::atomic<std::uint32_t>>(grid_.cells.size());
     parallel_for(tasks_.size(), 1, [&](std::size_t task) {
       std::vector<Placed>& placed = tasks_[task];
       const std::size_t last = std::min((task + 1) * blocks_a_task, blocks);
+      std::size_t counted = 0;
       for (std::size_t i = task * blocks_a_task; i < last; ++i) {
+        if (total.fetch_add(placed.size() - counted, std::memory_order_relaxed) > most) return;
+        counted = placed.size();
         for_each_face(grid_.bvh->blocks[i], [&](int face, const Outlines& outlines) {
           for_each_cell(grid_.faces[static_cast<std::size_t>(face)], static_cast<std::uint32_t>(i),
                         outlines, [&](std::uint32_t cell, const Entry& entry) {
@@ -306,7 +320,9 @@ class Builder {
                         });
         });
       }
+      total.fetch_add(placed.size() - counted, std::memory_order_relaxed);
     });
+    return total <= most;
   }
 
   void sort() {

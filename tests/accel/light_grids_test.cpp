@@ -165,6 +165,20 @@ TEST_CASE("Rays that only claim to be of a light's bundle traverse") {
   check_same(expected, ask(*make_light_grids(setup.soup.triangles(), lights), rays));
 }
 
+TEST_CASE("A grid of a light stays small where large triangles overlap") {
+  Soup soup{"cards", {}, {}};
+  for (int i = 0; i < 4000; ++i) {
+    const float z = static_cast<float>(i) * 0x1p-12F;
+    soup.add({-1, -1, z}, {1, -1, z}, {0, 1, z});
+  }
+  const Setup setup(with_room(soup, 2));
+  const PointBundle light{{0, 0, 1.5F}};
+  setup.check(light, 500, 1);
+  const auto grids = make_light_grids(setup.soup.triangles(),
+                                      {{bundle, light}, {bundle + 1, ParallelBundle{{0, 0, 1}}}});
+  for (const LightGridReport& report : grids->reports()) CHECK(report.bytes < 4000 * 500);
+}
+
 TEST_CASE("A grid of a light of few or degenerate triangles answers like brute force") {
   Soup nothing{"nothing", {}, {}};
   Soup point{"point", {}, {}};
