@@ -24,6 +24,7 @@ constexpr double most_cells_across = 16384;
 // At last there is one a face, which lists a block once.
 constexpr std::uint64_t most_entries_a_block = 32;
 static_assert(most_entries_a_block > CubeView::faces);
+static_assert(most_entries_a_block * ChildRef::max_blocks < 1ULL << 32U);
 
 std::variant<CubeView, ParallelView> view_of(const ExactBundle& bundle, const Aabb& box) {
   if (const auto* point = std::get_if<PointBundle>(&bundle)) return CubeView(*point);
@@ -326,34 +327,32 @@ class Builder {
   }
 
   void sort() {
-    std::vector<std::uint64_t> firsts(grid_.cells.size());
-    std::uint64_t sum = 0;
+    std::uint32_t sum = 0;
     for (std::size_t i = 0; i < grid_.cells.size(); ++i) {
-      firsts[i] = sum;
+      grid_.cells[i] = {sum, 0};
       sum += counts_[i].exchange(0, std::memory_order_relaxed);
     }
     std::vector<Entry> entries(sum);
     parallel_for(tasks_.size(), 1, [&](std::size_t task) {
       for (const Placed& placed : tasks_[task]) {
         const std::uint32_t before = counts_[placed.cell].fetch_add(1, std::memory_order_relaxed);
-        entries[firsts[placed.cell] + before] = placed.entry;
+        entries[grid_.cells[placed.cell].first + before] = placed.entry;
       }
       tasks_[task] = {};
     });
-    grid_.lists.resize(3 * sum + LightGrid::read_beyond);
+    grid_.lists.resize(std::size_t{3} * sum + LightGrid::read_beyond);
     parallel_for(grid_.cells.size(), 4096, [&](std::size_t i) {
-      const std::uint32_t count = counts_[i].load(std::memory_order_relaxed);
-      const std::uint64_t first = 3 * firsts[i];
-      grid_.cells[i] = {std::numeric_limits<float>::infinity(), count, first};
-      if (count == 0) return;
-      const std::span list(&entries[firsts[i]], count);
+      GridCell& cell = grid_.cells[i];
+      cell.count = counts_[i].load(std::memory_order_relaxed);
+      if (cell.count == 0) return;
+      const std::span list(&entries[cell.first], cell.count);
       std::ranges::sort(list, {}, [](const Entry& e) { return std::pair(e.nearest, e.block); });
-      for (std::size_t k = 0; k < count; ++k) {
-        grid_.lists[first + k] = std::bit_cast<std::uint32_t>(list[k].nearest);
-        grid_.lists[first + count + k] = list[k].places;
-        grid_.lists[first + 2 * count + k] = list[k].block;
+      std::uint32_t* const words = &grid_.lists[std::size_t{3} * cell.first];
+      for (std::size_t k = 0; k < cell.count; ++k) {
+        words[k] = std::bit_cast<std::uint32_t>(list[k].nearest);
+        words[cell.count + k] = list[k].places;
+        words[2 * std::size_t{cell.count} + k] = list[k].block;
       }
-      grid_.cells[i].nearest = list.front().nearest;
     });
     if constexpr (std::is_same_v<View, CubeView>) {
       if (view_.is_cone()) grid_.cells.back().count = GridCell::unknown;

@@ -11,8 +11,8 @@
 //
 // Looking up rounds, too, as if the point were seen a little off. For a point light a tangent, of
 // at most 1, has 4 roundings, its distance from the face's corner, of at most 2, one, and that in
-// cells another: 8 u M. For a direction by 5 roundings of three products of no
-// more than sqrt(3)/2 M in all, and 2 of a distance of sqrt(3) M: 8 u M, across the rays.
+// cells another: 8 u M. For a direction there are 5 roundings of three products of no more than
+// sqrt(3)/2 M in all, and 2 of a distance of sqrt(3) M: 8 u M across the rays.
 //
 // A cell lists every block with a triangle that is seen within all of that (outline.hpp) of any of
 // its points. Rays for which this does not hold, or that start where M would be larger, are not
@@ -38,14 +38,13 @@ struct GridFace {
   std::uint32_t first_cell = 0;
 };
 
-// A cell's list: its blocks' least depths, ascending, as floats; then the places where something of
-// them is seen; then their numbers.
+// A cell's list, three words a block: all blocks' least depths, ascending, as floats; then the
+// places where something of them is seen; then their numbers.
 struct GridCell {
   static constexpr std::uint32_t unknown = 0xFFFFFFFFU;
 
-  float nearest;        // depth of what is seen in it; infinite if there is nothing
+  std::uint32_t first;  // the blocks in all lists before
   std::uint32_t count;  // of blocks, or `unknown`
-  std::uint64_t first;  // in LightGrid::lists
 };
 
 // A rectangle of places in a cell, or a place: one of them holds another if none of its bytes is
@@ -69,7 +68,7 @@ class LightGrid {
   // The BVH must outlive the grid. Built by the calling arena's threads.
   LightGrid(const Bvh& over, const ExactBundle& bundle);
 
-  // answers[i] tells whether ray i hits anything. Rays that are not of the bundle or start far off
+  // answers[i] tells whether ray i hits anything. Rays that are not of the bundle, or start far off
   // the triangles, remain unknown.
   void occluded(std::span<const Ray> rays, std::span<Answer> answers,
                 TraversalCounts* counts) const;

@@ -93,12 +93,16 @@ HWY_INLINE Place place_of(const LightGrid& grid, const Seen& seen, std::size_t i
           place_bytes(u_in, u_in, v_in, v_in) | eighth_bits};
 }
 
+HWY_INLINE const std::uint32_t* list_of(const LightGrid& grid, const GridCell& cell) {
+  return grid.lists.data() + std::size_t{3} * cell.first;
+}
+
 // Appends the blocks of a cell that may be between the light and a place.
 HWY_INLINE std::uint32_t* append_blocks(const LightGrid& grid, const GridCell& cell,
                                         const Place& place, std::uint32_t* HWY_RESTRICT blocks) {
   const hn::CappedTag<float, LightGrid::read_beyond> d;
   const hn::RebindToUnsigned<decltype(d)> du;
-  const std::uint32_t* const depths = grid.lists.data() + cell.first;
+  const std::uint32_t* const depths = list_of(grid, cell);
   const std::uint32_t* const places = depths + cell.count;
   const std::uint32_t* const numbers = places + cell.count;
   const auto depth = hn::Set(d, place.depth);
@@ -185,7 +189,7 @@ HWY_INLINE void look_up(const LightGrid& grid, const View& view, std::span<const
   for (std::size_t i = 0; i < rays.size(); ++i) {
     if (grid.cells[places[i].cell].count == GridCell::unknown) answers[i] = Answer::unknown;
     if (answers[i] != Answer::unknown)
-      __builtin_prefetch(grid.lists.data() + grid.cells[places[i].cell].first);
+      __builtin_prefetch(list_of(grid, grid.cells[places[i].cell]));
   }
   // What there is to test, ray by ray.
   std::uint32_t blocks[most_blocks];
