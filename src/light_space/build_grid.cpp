@@ -20,6 +20,8 @@ constexpr std::size_t blocks_a_task = 1024;
 constexpr double cells_per_triangle = 1;
 constexpr double most_cells_across = 16384;
 
+constexpr std::size_t usual_entries_a_block = 12;
+
 // Where large triangles overlap, so many cells would list most of them: then there are fewer cells.
 // At last there is one a face, which lists a block once.
 constexpr std::uint64_t most_entries_a_block = 32;
@@ -156,6 +158,30 @@ class Builder {
   }
 
   [[nodiscard]] Extents extents() const {
+    if constexpr (std::is_same_v<View, ParallelView>) {
+      return {extent_of_box()};
+    } else {
+      return extents_of_outlines();
+    }
+  }
+
+  // Of the corners of the box that holds all: a little more than is seen, and nothing to be looked
+  // for.
+  [[nodiscard]] Extent extent_of_box() const {
+    Extent extent{{}, {}, TriangleBlock::width * grid_.bvh->blocks.size()};
+    const Aabb& box = grid_.origins;
+    for (int corner = 0; corner < 8; ++corner) {
+      const DVec3 at((corner & 1) != 0 ? box.max.x : box.min.x,
+                     (corner & 2) != 0 ? box.max.y : box.min.y,
+                     (corner & 4) != 0 ? box.max.z : box.min.z);
+      const DVec3 local = view_.local(0, at);
+      extent.u.extend(local.x);
+      extent.v.extend(local.y);
+    }
+    return extent;
+  }
+
+  [[nodiscard]] Extents extents_of_outlines() const {
     return parallel_fold(
         grid_.bvh->blocks.size(), blocks_a_task, Extents{},
         [&](std::size_t first, std::size_t last) {
@@ -308,6 +334,7 @@ class Builder {
     counts_ = std::vector<std::atomic<std::uint32_t>>(grid_.cells.size());
     parallel_for(tasks_.size(), 1, [&](std::size_t task) {
       std::vector<Placed>& placed = tasks_[task];
+      placed.reserve(usual_entries_a_block * blocks_a_task);
       const std::size_t last = std::min((task + 1) * blocks_a_task, blocks);
       std::size_t counted = 0;
       for (std::size_t i = task * blocks_a_task; i < last; ++i) {
