@@ -67,10 +67,6 @@ float rounded_down(double x) {
                              : rounded;
 }
 
-Range common(const Range& a, const Range& b) {
-  return {std::max(a.min, b.min), std::min(a.max, b.max)};
-}
-
 // What a face sees: where, and how many triangles.
 struct Extent {
   Range u, v;
@@ -213,18 +209,9 @@ class Builder {
     for (std::size_t i = 0; i < extents.size(); ++i) {
       const Extent& extent = extents[i];
       if (extent.triangles == 0) continue;
-      Range u = extent.u, v = extent.v;
-      if constexpr (std::is_same_v<View, CubeView>) {
-        // Tangents of the face's border, rounded.
-        constexpr double border = 1 + 0x1p-20;
-        u = common(u, {-border, border});
-        v = common(v, {-border, border});
-        if (view_.is_cone()) {
-          u = common(u, view_.tangents(static_cast<int>(i), 0));
-          v = common(v, view_.tangents(static_cast<int>(i), 1));
-        }
-        if (u.empty() || v.empty()) continue;
-      }
+      const Range u = common(extent.u, view_.limits(static_cast<int>(i), 0));
+      const Range v = common(extent.v, view_.limits(static_cast<int>(i), 1));
+      if (u.empty() || v.empty()) continue;
       GridFace& face = grid_.faces[i];
       face.u = rounded_down(u.min);
       face.v = rounded_down(v.min);

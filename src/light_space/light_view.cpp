@@ -7,7 +7,10 @@ namespace pah {
 
 // In the plane of a tangent's axis and the face's own, the directions of a cone are those whose
 // angle differs from its axis's by at most asin(sine / length of the axis's projection).
-Range CubeView::tangents(int face, int axis) const {
+Range CubeView::limits(int face, int axis) const {
+  // Tangents of the face's border, rounded.
+  constexpr double border = 1 + 0x1p-20;
+  if (!is_cone()) return {-border, border};
   constexpr double right_angle = std::numbers::pi / 2;
   // For a cone of directions and an axis rounded to float.
   constexpr double widened = 1e-5;
@@ -16,12 +19,13 @@ Range CubeView::tangents(int face, int axis) const {
   const double across = axis_[(z + 1 + axis) % 3];
   const double sine = sine_ + widened;
   const double length = std::hypot(along, across);
-  if (!(sine < length)) return {-1, 1};
+  if (!(sine < length)) return {-border, border};
   const double middle = std::atan2(across, along);
   const double half = std::asin(sine / length);
   if (std::abs(middle) >= right_angle + half) return {};
-  return {middle - half <= -right_angle ? -1 : std::tan(middle - half),
-          middle + half >= right_angle ? 1 : std::tan(middle + half)};
+  return common({-border, border},
+                {middle - half <= -right_angle ? -border : std::tan(middle - half),
+                 middle + half >= right_angle ? border : std::tan(middle + half)});
 }
 
 }  // namespace pah

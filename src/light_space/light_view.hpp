@@ -28,8 +28,8 @@ class CubeView {
 
   // Whether rays come from some directions only.
   [[nodiscard]] bool is_cone() const { return sine_ < 1; }
-  // The tangents that they have along the first or second axis of a face.
-  [[nodiscard]] Range tangents(int face, int axis) const;
+  // The tangents that they have along the first or second axis of a face, or more.
+  [[nodiscard]] Range limits(int face, int axis) const;
 
  private:
   Vec3 eye_;
@@ -50,6 +50,10 @@ class ParallelView {
   [[nodiscard]] DVec3 local(int /*face*/, const DVec3& point) const {
     const DVec3 w = point - DVec3(center_);
     return {glm::dot(basis_[0], w), glm::dot(basis_[1], w), -glm::dot(basis_[2], w)};
+  }
+  [[nodiscard]] static Range limits(int /*face*/, int /*axis*/) {
+    constexpr double everywhere = std::numeric_limits<double>::infinity();
+    return {-everywhere, everywhere};
   }
   // The axes of u, v and, backwards, depth.
   [[nodiscard]] const glm::mat3& axes() const { return rounded_; }

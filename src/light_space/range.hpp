@@ -20,4 +20,8 @@ struct Range {
   }
 };
 
+[[nodiscard]] inline Range common(const Range& a, const Range& b) {
+  return {std::max(a.min, b.min), std::min(a.max, b.max)};
+}
+
 }  // namespace pah

@@ -87,7 +87,8 @@ Acceleration make_acceleration(const World& world, const Scene& settings, std::s
     std::vector<LightBundle> bundles;
     for (GridPlan& plan : made.grid_plans) {
       if (!name.empty()) plan = {plan.bundle, plan.expected_rays, true, "asked for"};
-      if (plan.build) bundles.push_back({plan.bundle, *exact_bundle(world.lights[plan.bundle])});
+      const auto rays = exact_bundle(world.lights[plan.bundle]);
+      if (plan.build && rays) bundles.push_back({plan.bundle, *rays});
     }
     auto accelerator = make_light_grids(world.triangles(), bundles);
     made.grids = accelerator.get();

@@ -120,6 +120,27 @@ TEST_CASE("A grid of a light answers like brute force, bit for bit") {
   }
 }
 
+TEST_CASE("Rays of a light's bundle are looked up and do not traverse") {
+  Random random(3);
+  const Setup setup(with_room(grid(60, 0.3F, 4), 2));
+  const auto share_looked_up = [&](const auto& light) {
+    std::vector<Ray> rays;
+    for (std::uint32_t i = 0; i < 2000; ++i)
+      rays.push_back(to_light(light, point_on(setup.soup.triangles()[i], random), random));
+    const auto grids = make_light_grids(setup.soup.triangles(), {{bundle, light}});
+    std::vector<std::uint8_t> occluded(rays.size());
+    TraversalCounts counts;
+    grids->occluded(rays, occluded, &counts);
+    // Traversals meet inner nodes.
+    return 1 - static_cast<double>(counts.inner_nodes) / static_cast<double>(rays.size());
+  };
+  CHECK(share_looked_up(PointBundle{{0.5F, 1.5F, 0.25F}}) == 1);
+  CHECK(share_looked_up(ParallelBundle{glm::normalize(Vec3{1, 2, 3})}) == 1);
+  // From without the cone rays traverse.
+  CHECK(share_looked_up(PointBundle{{0, 1.5F, 0}, {0, -1, 0}, 0.95F}) == 1);
+  CHECK(share_looked_up(PointBundle{{0, 1.5F, 0}, {0, -1, 0}, 0.1F}) < 0);
+}
+
 TEST_CASE("A grid of a light on a surface, an edge or a vertex answers like brute force") {
   Random random(6);
   for (const Soup& soup :

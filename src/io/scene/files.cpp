@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <fstream>
+#include <span>
 #include <vector>
 
 #include "io/mesh/little_endian.hpp"
@@ -82,9 +83,13 @@ void ContentHash::add(std::string_view bytes) {
 }
 
 void ContentHash::add_words(std::string_view bytes) {
-  for (; bytes.size() >= 8; bytes.remove_prefix(8))
-    step(load_u32(bytes.data()) | std::uint64_t{load_u32(bytes.data() + 4)} << 32U);
-  add(bytes);
+  const std::span<const char> all(bytes);
+  const std::size_t words = all.size() / 8;
+  for (std::size_t i = 0; i < words; ++i) {
+    const std::span<const char> word = all.subspan(8 * i, 8);
+    step(load_u32(&word[0]) | std::uint64_t{load_u32(&word[4])} << 32U);
+  }
+  add(bytes.substr(8 * words));
 }
 
 void ContentHash::add_part(std::string_view bytes) {
