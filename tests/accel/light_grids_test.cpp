@@ -137,8 +137,8 @@ TEST_CASE("Rays of a light's bundle are looked up and do not traverse") {
   CHECK(share_looked_up(PointBundle{{0.5F, 1.5F, 0.25F}}) == 1);
   CHECK(share_looked_up(ParallelBundle{glm::normalize(Vec3{1, 2, 3})}) == 1);
   // From without the cone rays traverse.
-  CHECK(share_looked_up(PointBundle{{0, 1.5F, 0}, {0, -1, 0}, 0.95F}) == 1);
-  CHECK(share_looked_up(PointBundle{{0, 1.5F, 0}, {0, -1, 0}, 0.1F}) < 0);
+  CHECK(share_looked_up(PointBundle{{30, 40, 30}, {0, -1, 0}, 0.95F}) == 1);
+  CHECK(share_looked_up(PointBundle{{30, 40, 30}, {0, -1, 0}, 0.1F}) < 0);
 }
 
 TEST_CASE("A grid of a light on a surface, an edge or a vertex answers like brute force") {
