@@ -2,6 +2,9 @@
 
 #include <pah/accel/light_grids.hpp>
 
+#include <tbb/global_control.h>
+#include <tbb/task_arena.h>
+
 #include <cmath>
 
 #include "catch.hpp"
@@ -139,6 +142,30 @@ TEST_CASE("Rays of a light's bundle are looked up and do not traverse") {
   // From without the cone rays traverse.
   CHECK(share_looked_up(PointBundle{{30, 40, 30}, {0, -1, 0}, 0.95F}) == 1);
   CHECK(share_looked_up(PointBundle{{30, 40, 30}, {0, -1, 0}, 0.1F}) < 0);
+}
+
+TEST_CASE("A grid of a light does not depend on the number of threads", "[threads]") {
+  const Soup soup = with_room(random_soup(20'000, 0.02F, Vec3{0}, 14), 1.5F);
+  const PointBundle light{{0.5F, 1.25F, 0.25F}};
+  const std::vector<Ray> rays = rays_to(light, soup, 4000, 15);
+  std::uint64_t bytes = 0;
+  std::vector<std::uint8_t> expected;
+  for (const int threads : {1, 2, 7}) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
+                                    static_cast<std::size_t>(threads));
+    tbb::task_arena arena(threads);
+    arena.execute([&] {
+      const auto grids = make_light_grids(soup.triangles(), {{bundle, light}});
+      std::vector<std::uint8_t> occluded(rays.size());
+      grids->occluded(rays, occluded);
+      if (threads == 1) {
+        bytes = grids->reports()[0].bytes;
+        expected = occluded;
+      }
+      CHECK(grids->reports()[0].bytes == bytes);
+      CHECK(occluded == expected);
+    });
+  }
 }
 
 TEST_CASE("A grid of a light on a surface, an edge or a vertex answers like brute force") {
