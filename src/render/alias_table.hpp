@@ -40,8 +40,8 @@ class AliasTable {
   [[nodiscard]] std::size_t sample(float u) const {
     const double place = static_cast<double>(u) * static_cast<double>(bins_.size());
     const auto i = static_cast<std::size_t>(place);
-    const Bin bin = bins_[i];
-    return place - static_cast<double>(i) < static_cast<double>(bin.share) ? i : bin.alias;
+    return place - static_cast<double>(i) < static_cast<double>(bins_[i].share) ? i
+                                                                                : bins_[i].alias;
   }
 
  private:

@@ -8,10 +8,17 @@
 #include <limits>
 #include <pah/geometry/ray.hpp>
 
-#include "geometry/float4.hpp"
 #include "geometry/rounding.hpp"
 
 namespace pah {
+
+// The neighboring floats; x is finite.
+inline float next_float_up(float x) {
+  if (x == 0) return std::numeric_limits<float>::denorm_min();
+  const auto bits = std::bit_cast<std::uint32_t>(x);
+  return std::bit_cast<float>(x > 0 ? bits + 1 : bits - 1);
+}
+inline float next_float_down(float x) { return -next_float_up(-x); }
 
 // A point on a surface, rounded: the true one lies within `error` of it, per axis.
 struct SurfacePoint {
@@ -23,20 +30,18 @@ struct SurfacePoint {
 // The point moved off the surface to the side that `direction` points to: along the normal until
 // the box of errors is wholly on that side, rounded outward.
 inline Vec3 offset_point(const SurfacePoint& point, const Vec3& direction) {
-  const Float4 normal = float4(point.normal);
   const float distance = glm::dot(glm::abs(point.normal), point.error);
   const bool inside = glm::dot(direction, point.normal) < 0;
-  const Float4 offset = splat(inside ? -distance : distance) * normal;
-  const Float4 moved = float4(point.position) + offset;
-  // The neighbor in the offset's direction is one more or one less as an integer: of a zero that
-  // has the offset's sign, one more.
-  const Int4 sign = Int4{} + std::int32_t{-0x7FFFFFFF - 1};
-  const Int4 toward = std::bit_cast<Int4>(offset) & (offset != 0.0F);
-  const Int4 bits = std::bit_cast<Int4>(moved) & (moved != 0.0F);
-  const Int4 from = bits | (toward & sign & (moved == 0.0F));
-  const Int4 step = (((from ^ toward) >> 31) | 1) & (offset != 0.0F);
-  const Float4 rounded = std::bit_cast<Float4>(from + step);
-  return {rounded[0], rounded[1], rounded[2]};
+  const Vec3 offset = (inside ? -distance : distance) * point.normal;
+  Vec3 moved = point.position + offset;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (offset[axis] > 0) {
+      moved[axis] = next_float_up(moved[axis]);
+    } else if (offset[axis] < 0) {
+      moved[axis] = next_float_down(moved[axis]);
+    }
+  }
+  return moved;
 }
 
 // Where a facet stands for a curved surface, a ray may start on the side of the facet that `side`

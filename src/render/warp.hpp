@@ -2,9 +2,7 @@
 #pragma once
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
-#include <cstdint>
 #include <numbers>
 #include <pah/geometry/vec.hpp>
 
@@ -34,25 +32,18 @@ namespace pah {
 [[nodiscard]] Vec2 sample_blackman_harris(Vec2 u, float radius);
 [[nodiscard]] Vec2 sample_box(Vec2 u, float radius);
 
-// By bits: which of the two it is nobody can predict.
-inline float select(bool first, float a, float b) {
-  const auto mask = -static_cast<std::int32_t>(first);
-  return std::bit_cast<float>((std::bit_cast<std::int32_t>(a) & mask) |
-                              (std::bit_cast<std::int32_t>(b) & ~mask));
-}
-
 inline Vec2 sample_unit_disk(Vec2 u) {
   const Vec2 s = 2.0F * u - 1.0F;
   const bool x_larger = std::abs(s.x) > std::abs(s.y);
-  const float r = select(x_larger, s.x, s.y);
+  const float r = x_larger ? s.x : s.y;
   if (r == 0) return {0, 0};
   // Taylor's series: up to pi / 4 they are off by 2e-9 and 2.5e-8 at most.
-  const float a = std::numbers::pi_v<float> / 4 * (select(x_larger, s.y, s.x) / r);
+  const float a = std::numbers::pi_v<float> / 4 * ((x_larger ? s.y : s.x) / r);
   const float a2 = a * a;
   const float sine =
       r * a * (1 + a2 * (-1.0F / 6 + a2 * (1.0F / 120 + a2 * (-1.0F / 5040 + a2 / 362880))));
   const float cosine = r * (1 + a2 * (-0.5F + a2 * (1.0F / 24 + a2 * (-1.0F / 720 + a2 / 40320))));
-  return {select(x_larger, cosine, sine), select(x_larger, sine, cosine)};
+  return x_larger ? Vec2{cosine, sine} : Vec2{sine, cosine};
 }
 
 inline Vec3 sample_cosine_hemisphere(Vec2 u) {
