@@ -106,8 +106,7 @@ std::vector<RateRow> blank_rows(const std::string& scene, std::uint64_t triangle
     }
     row.build_seconds = on.build_seconds;
     const AcceleratorMemory memory = on.accelerator->memory();
-    row.bytes =
-      memory.global_bvh + memory.local_bvhs + memory.light_grids + memory.top_level;
+    row.bytes = memory.global_bvh + memory.local_bvhs + memory.light_grids + memory.top_level;
     row.mismatches = count_mismatches(kind.query, expected, answers);
     rows.push_back(row);
   }
