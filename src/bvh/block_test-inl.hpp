@@ -161,6 +161,16 @@ HWY_INLINE std::uint32_t maybe_hit(const OneOfFour& ray, const TriangleBlock& bl
   return hits;
 }
 
+// Whether the ray hits any of them.
+HWY_INLINE bool hits_any(const OneOfFour& ray, const TriangleBlock& block, BlockHits& found) {
+  TriangleHit hit;
+  for (std::uint32_t hits = maybe_hit(ray, block, ray.t_max(), found); hits != 0;
+       hits &= hits - 1) {
+    if (found.accept(ray, block, lowest_bit(hits), ray.t_max(), hit)) return true;
+  }
+  return false;
+}
+
 }  // namespace
 }  // namespace HWY_NAMESPACE
 }  // namespace pah

@@ -196,11 +196,7 @@ HWY_INLINE bool any(const Bvh& bvh, const OneOfFour& ray, TraversalCounts& count
       const TriangleBlock* block = &bvh.blocks[child.first_block()];
       for (std::uint32_t begin = 0; begin < count; begin += TriangleBlock::width, ++block) {
         if (counting) ++counts.blocks;
-        TriangleHit hit;
-        for (std::uint32_t hits = maybe_hit(ray, *block, ray.t_max(), found); hits != 0;
-             hits &= hits - 1) {
-          if (found.accept(ray, *block, lowest_bit(hits), ray.t_max(), hit)) return true;
-        }
+        if (hits_any(ray, *block, found)) return true;
       }
     }
   }

@@ -6,22 +6,20 @@
 namespace pah {
 
 // In the plane of a tangent's axis and the face's own, the directions of a cone are those whose
-// angle differs from its axis's by at most asin(sine / length of the axis's projection).
+// angle differs from its axis's by at most asin(sine / length of the axis's projection). What
+// rounding leaves out of that has no place on the face, and traverses.
 Range CubeView::limits(int face, int axis) const {
   // Tangents of the face's border, rounded.
   constexpr double border = 1 + 0x1p-20;
   if (!is_cone()) return {-border, border};
   constexpr double right_angle = std::numbers::pi / 2;
-  // For a cone of directions and an axis rounded to float.
-  constexpr double widened = 1e-5;
   const int z = face % 3;
   const double along = face < 3 ? axis_[z] : -axis_[z];
   const double across = axis_[(z + 1 + axis) % 3];
-  const double sine = sine_ + widened;
   const double length = std::hypot(along, across);
-  if (!(sine < length)) return {-border, border};
+  if (!(sine_ < length)) return {-border, border};
   const double middle = std::atan2(across, along);
-  const double half = std::asin(sine / length);
+  const double half = std::asin(sine_ / length);
   if (std::abs(middle) >= right_angle + half) return {};
   return common({-border, border},
                 {middle - half <= -right_angle ? -border : std::tan(middle - half),

@@ -120,19 +120,6 @@ HWY_INLINE std::uint32_t* append_blocks(const LightGrid& grid, const GridCell& c
   return blocks;
 }
 
-template <bool counting>
-HWY_INLINE bool hits_block(const OneOfFour& ray, const TriangleBlock& block, BlockHits& found,
-                           TraversalCounts& counts) {
-  if (counting) ++counts.blocks;
-  if (counting) counts.triangles += TriangleBlock::width;
-  TriangleHit hit;
-  for (std::uint32_t hits = maybe_hit(ray, block, ray.t_max(), found); hits != 0;
-       hits &= hits - 1) {
-    if (found.accept(ray, block, lowest_bit(hits), ray.t_max(), hit)) return true;
-  }
-  return false;
-}
-
 HWY_INLINE void prefetch(const TriangleBlock& block) {
   const auto* const bytes = reinterpret_cast<const char*>(&block);
   __builtin_prefetch(bytes);
@@ -160,7 +147,9 @@ HWY_INLINE void test(const LightGrid& grid, std::span<const Ray> rays, std::span
       BlockHits found;
       for (std::uint32_t n = one.first; n < one.last; ++n) {
         const TriangleBlock& block = grid.bvh->blocks[blocks[n]];
-        if (!hits_block<counting>(OneOfFour{prepared, k}, block, found, counts)) continue;
+        if (counting) ++counts.blocks;
+        if (counting) counts.triangles += TriangleBlock::width;
+        if (!hits_any(OneOfFour{prepared, k}, block, found)) continue;
         answers[one.ray] = Answer::occluded;
         break;
       }
