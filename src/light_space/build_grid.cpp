@@ -56,9 +56,10 @@ double error_of(const PointBundle& bundle, const Aabb& origins) {
   const DVec3 size = DVec3(origins.max) - DVec3(origins.min);
   return double{rounding_bound(40)} * std::max({away.x, away.y, away.z, size.x, size.y, size.z});
 }
-double error_of(const ParallelBundle& /*bundle*/, const Aabb& origins) {
+double error_of(const ParallelBundle& bundle, const Aabb& origins) {
   const DVec3 size = DVec3(origins.max) - DVec3(origins.min);
-  return std::sqrt(3.0) * double{rounding_bound(36)} * std::max({size.x, size.y, size.z});
+  const float rounding = bundle.tangent > 0 ? rounding_bound(52) : rounding_bound(36);
+  return std::sqrt(3.0) * double{rounding} * std::max({size.x, size.y, size.z});
 }
 
 float rounded_down(double x) {
@@ -368,9 +369,19 @@ class Builder {
         words[2 * std::size_t{cell.count} + k] = list[k].block;
       }
     });
+    grid_.nearest = nearest_listed();
     if constexpr (std::is_same_v<View, CubeView>) {
       if (view_.is_cone()) grid_.cells.back().count = GridCell::unknown;
     }
+  }
+
+  [[nodiscard]] float nearest_listed() const {
+    float nearest = std::numeric_limits<float>::infinity();
+    for (const GridCell& cell : grid_.cells) {
+      if (cell.count > 0)
+        nearest = std::min(nearest, std::bit_cast<float>(grid_.lists[std::size_t{3} * cell.first]));
+    }
+    return nearest;
   }
 
   LightGrid& grid_;

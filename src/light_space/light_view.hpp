@@ -43,6 +43,7 @@ class ParallelView {
 
   ParallelView(const ParallelBundle& bundle, const Vec3& center)
       : toward_(bundle.toward),
+        tangent_(bundle.tangent),
         center_(center),
         basis_(orthonormal_basis(DVec3(bundle.toward))),
         rounded_(basis_) {}
@@ -59,9 +60,13 @@ class ParallelView {
   [[nodiscard]] const glm::mat3& axes() const { return rounded_; }
   [[nodiscard]] const Vec3& center() const { return center_; }
   [[nodiscard]] const Vec3& toward() const { return toward_; }
+  // Of the angle by which rays lean against that, at most.
+  [[nodiscard]] float tangent() const { return tangent_; }
 
  private:
-  Vec3 toward_, center_;
+  Vec3 toward_;
+  float tangent_;
+  Vec3 center_;
   DMat3 basis_;
   glm::mat3 rounded_;
 };

@@ -10,8 +10,9 @@ std::optional<ExactBundle> exact_bundle(const Light& light) {
     return PointBundle{Vec3(spot->position), Vec3(glm::normalize(spot->direction)),
                        static_cast<float>(std::sin(glm::radians(spot->angle)))};
   const auto* sun = std::get_if<DirectionalLight>(&light.model);
-  if (sun == nullptr || sun->angle > 0) return {};
-  return ParallelBundle{Vec3(-glm::normalize(sun->direction))};
+  if (sun == nullptr) return {};
+  return ParallelBundle{Vec3(-glm::normalize(sun->direction)),
+                        static_cast<float>(std::tan(glm::radians(sun->angle / 2)))};
 }
 
 }  // namespace pah

@@ -49,7 +49,14 @@ Ray to_light(const PointBundle& light, const Vec3& from, Random& random) {
   return {from, t_max, light.eye - from, bundle};
 }
 Ray to_light(const ParallelBundle& light, const Vec3& from, Random& random) {
-  return {from, random.below(4) == 0 ? random.uniform(0, 3) : infinity, light.toward, bundle};
+  Vec3 toward = light.toward;
+  if (light.tangent > 0) {
+    toward += light.tangent * random.in_box({Vec3{-1}, Vec3{1}});
+    // Across an axis of the world, at times, and of any length.
+    if (light.tangent >= 0.1F && random.below(8) == 0) toward[static_cast<int>(random.below(3))] = 0;
+    toward *= random.uniform(0.5F, 2);
+  }
+  return {from, random.below(4) == 0 ? random.uniform(0, 3) : infinity, toward, bundle};
 }
 Vec3 away_from(const PointBundle& light, const Vec3& at) { return at - light.eye; }
 Vec3 away_from(const ParallelBundle& light, const Vec3& /*at*/) { return -light.toward; }
@@ -119,6 +126,8 @@ TEST_CASE("A grid of a light answers like brute force, bit for bit") {
       setup.check(PointBundle{100.0F * eye}, 1000, round);
       setup.check(PointBundle{eye, glm::normalize(-eye), 0.3F}, 3000, round);
       setup.check(ParallelBundle{glm::normalize(eye)}, 3000, round);
+      for (const float tangent : {1e-6F, 0.005F, 0.1F, 1.0F})
+        setup.check(ParallelBundle{glm::normalize(eye), tangent}, 2000, round);
     }
   }
 }
@@ -139,6 +148,7 @@ TEST_CASE("Rays of a light's bundle are looked up and do not traverse") {
   };
   CHECK(share_looked_up(PointBundle{{0.5F, 1.5F, 0.25F}}) == 1);
   CHECK(share_looked_up(ParallelBundle{glm::normalize(Vec3{1, 2, 3})}) == 1);
+  CHECK(share_looked_up(ParallelBundle{glm::normalize(Vec3{1, 2, 3}), 0.005F}) == 1);
   // From without the cone rays traverse.
   CHECK(share_looked_up(PointBundle{{30, 40, 30}, {0, -1, 0}, 0.95F}) == 1);
   CHECK(share_looked_up(PointBundle{{30, 40, 30}, {0, -1, 0}, 0.1F}) < 0);
@@ -177,8 +187,9 @@ TEST_CASE("A grid of a light on a surface, an edge or a vertex answers like brut
       const Triangle t = setup.soup.triangles()[random.below(2000)];
       setup.check(PointBundle{point_on(t, random)}, 2000, round);
     }
-    for (const Vec3& toward : {Vec3{0, 1, 0}, Vec3{1, 0, 0}, Vec3{0, 0, -1}})
-      setup.check(ParallelBundle{toward}, 2000, 9);
+    for (const Vec3& toward : {Vec3{0, 1, 0}, Vec3{1, 0, 0}, Vec3{0, 0, -1}}) {
+      for (const float tangent : {0.0F, 0.005F}) setup.check(ParallelBundle{toward, tangent}, 2000, 9);
+    }
     // In the plane of a flat grid.
     setup.check(PointBundle{{1.5F, 0, 0.25F}}, 2000, 10);
     setup.check(ParallelBundle{glm::normalize(Vec3{1, 0, 0.5F})}, 2000, 11);

@@ -1,4 +1,4 @@
-// Bundles whose rays all run through one point or along one direction.
+// Bundles whose rays all run through one point or along one direction, or almost.
 #pragma once
 
 #include <pah/geometry/ray.hpp>
@@ -15,9 +15,11 @@ struct PointBundle {
   float sine = 1;
 };
 
-// Rays whose direction is `toward`, bit by bit: of unit length up to rounding.
+// Rays whose direction is `toward`, bit by bit, of unit length up to rounding; or, if `tangent` is
+// not 0, any that differs from it by an angle of about that tangent at most, in [0, 1].
 struct ParallelBundle {
   Vec3 toward{0, 1, 0};
+  float tangent = 0;
 };
 
 using ExactBundle = std::variant<PointBundle, ParallelBundle>;
