@@ -12,17 +12,20 @@ namespace {
 
 class LightGridsOverBvh final : public LightGrids {
  public:
-  LightGridsOverBvh(const Triangles& triangles, const std::vector<LightBundle>& bundles)
-      : bvh_(build_bvh(triangles).bvh) {
-    using Clock = std::chrono::steady_clock;
-    grids_.reserve(bundles.size());
-    for (const LightBundle& bundle : bundles) {
-      const auto start = Clock::now();
-      grids_.push_back({bundle.bundle, LightGrid(bvh_, bundle.rays)});
-      reports_.push_back({grids_.back().grid.memory_bytes(),
-                          std::chrono::duration<double>(Clock::now() - start).count()});
-    }
-    std::ranges::sort(grids_, {}, &BundleGrid::bundle);
+  explicit LightGridsOverBvh(const Triangles& triangles) {
+    const Clock::time_point start = Clock::now();
+    bvh_ = build_bvh(triangles).bvh;
+    bvh_build_seconds_ = seconds_since(start);
+  }
+
+  void add(const LightBundle& bundle) override {
+    const Clock::time_point start = Clock::now();
+    auto grid = std::make_unique<LightGrid>(bvh_, bundle.rays);
+    const LightGridReport report{bundle.bundle, grid->memory_bytes(), seconds_since(start)};
+    grids_.insert(place_of(bundle.bundle), {report, std::move(grid)});
+  }
+  void remove(std::uint32_t bundle) override {
+    std::erase_if(grids_, [=](const BundleGrid& grid) { return grid.report.bundle == bundle; });
   }
 
   void closest_hit(std::span<const Ray> rays, std::span<Hit> hits,
@@ -40,9 +43,9 @@ class LightGridsOverBvh final : public LightGrids {
       while (last < rays.size() && rays[last].bundle == bundle) ++last;
       const auto run = rays.subspan(first, last - first);
       const auto answers = results.subspan(first, last - first);
-      const auto grid = std::ranges::lower_bound(grids_, bundle, {}, &BundleGrid::bundle);
-      if (grid != grids_.end() && grid->bundle == bundle) {
-        look_up(grid->grid, run, answers, counts);
+      const auto grid = place_of(bundle);
+      if (grid != grids_.end() && grid->report.bundle == bundle) {
+        look_up(*grid->grid, run, answers, counts);
       } else {
         pah::occluded(bvh_, run, answers, counts);
       }
@@ -52,18 +55,34 @@ class LightGridsOverBvh final : public LightGrids {
 
   [[nodiscard]] AcceleratorMemory memory() const override {
     AcceleratorMemory memory{.global_bvh = bvh_.memory_bytes()};
-    for (const LightGridReport& report : reports_) memory.light_grids += report.bytes;
+    for (const BundleGrid& grid : grids_) memory.light_grids += grid.report.bytes;
     memory.top_level = grids_.capacity() * sizeof(BundleGrid);
     return memory;
   }
 
-  [[nodiscard]] const std::vector<LightGridReport>& reports() const override { return reports_; }
+  [[nodiscard]] std::vector<LightGridReport> reports() const override {
+    std::vector<LightGridReport> reports;
+    for (const BundleGrid& grid : grids_) reports.push_back(grid.report);
+    return reports;
+  }
+  [[nodiscard]] double bvh_build_seconds() const override { return bvh_build_seconds_; }
 
  private:
+  using Clock = std::chrono::steady_clock;
+
   struct BundleGrid {
-    std::uint32_t bundle;
-    LightGrid grid;
+    LightGridReport report;
+    std::unique_ptr<LightGrid> grid;
   };
+
+  [[nodiscard]] static double seconds_since(Clock::time_point start) {
+    return std::chrono::duration<double>(Clock::now() - start).count();
+  }
+  // Where its grid is, or would be.
+  [[nodiscard]] std::vector<BundleGrid>::const_iterator place_of(std::uint32_t bundle) const {
+    return std::ranges::lower_bound(grids_, bundle, {},
+                                    [](const BundleGrid& grid) { return grid.report.bundle; });
+  }
 
   // What the grid does not answer traverses.
   void look_up(const LightGrid& grid, std::span<const Ray> rays, std::span<std::uint8_t> results,
@@ -84,15 +103,17 @@ class LightGridsOverBvh final : public LightGrids {
   }
 
   Bvh bvh_;
-  std::vector<BundleGrid> grids_;
-  std::vector<LightGridReport> reports_;
+  double bvh_build_seconds_ = 0;
+  std::vector<BundleGrid> grids_;  // by bundle
 };
 
 }  // namespace
 
 std::unique_ptr<LightGrids> make_light_grids(Triangles triangles,
                                              const std::vector<LightBundle>& bundles) {
-  return std::make_unique<LightGridsOverBvh>(triangles, bundles);
+  auto grids = std::make_unique<LightGridsOverBvh>(triangles);
+  for (const LightBundle& bundle : bundles) grids->add(bundle);
+  return grids;
 }
 
 }  // namespace pah

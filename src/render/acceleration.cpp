@@ -5,6 +5,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "render/grid_choice.hpp"
+
 namespace pah {
 namespace {
 
@@ -40,23 +42,38 @@ LocalConfig local_config(const AccelerationSettings& settings) {
 
 namespace {
 
-// Of all shadow rays, by how often paths meet surfaces in scenes at hand, shared alike by lights.
-double expected_rays_to_a_light(const World& world, const Scene& settings) {
-  constexpr int surfaces_met = 2;
-  const double samples =
-      static_cast<double>(settings.film.width) * settings.film.height * settings.render.samples;
-  return samples * std::min(settings.render.max_depth, surfaces_met) /
-         static_cast<double>(std::max<std::size_t>(world.lights.size(), 1));
+void use_areas(Acceleration& made, const World& world, const AccelerationSettings& settings) {
+  const auto build = [&] {
+    std::vector<LocalArea> areas;
+    for (std::size_t i = 0; i < made.areas.size(); ++i)
+      if (made.plans[i].build) areas.push_back(local_area(made.areas[i]));
+    auto accelerator = make_local_bvhs(world.triangles(), areas, local_config(settings));
+    made.local = accelerator.get();
+    made.accelerator = std::move(accelerator);
+  };
+  build();
+  if (!settings.memory || made.accelerator->memory().total() <= *settings.memory) return;
+  // As many as there is room for, in their order.
+  std::uint64_t total = made.accelerator->memory().global_bvh;
+  const std::vector<LocalBvhReport> reports = made.local->reports();
+  std::size_t built = 0;
+  for (AreaPlan& plan : made.plans) {
+    if (!plan.build) continue;
+    const std::uint64_t bytes = reports[built++].bytes;
+    if (total + bytes > *settings.memory) {
+      plan = {false, "it would take more memory than the scene allows"};
+    } else {
+      total += bytes;
+    }
+  }
+  build();
 }
 
-std::vector<GridPlan> grid_plans(const World& world, const Scene& settings) {
-  const double rays = expected_rays_to_a_light(world, settings);
-  std::vector<GridPlan> plans;
-  for (std::size_t i = 0; i < world.lights.size(); ++i) {
-    if (exact_bundle(world.lights[i]))
-      plans.push_back(plan_grid(static_cast<std::uint32_t>(i), world.triangles().size(), rays));
-  }
-  return plans;
+void use_grids(Acceleration& made, const World& world, const Scene& settings, bool all) {
+  auto grids = make_light_grids(world.triangles());
+  made.grid_plans = add_grids(*grids, world, settings, all);
+  made.grids = grids.get();
+  made.accelerator = std::move(grids);
 }
 
 }  // namespace
@@ -65,43 +82,29 @@ Acceleration make_acceleration(const World& world, const Scene& settings, std::s
   Acceleration made;
   made.areas = areas_of(world, settings.influence_areas, settings.film);
   for (const SceneArea& area : made.areas) made.plans.push_back(plan(local_area(area)));
-  made.grid_plans = grid_plans(world, settings);
   const bool any = std::ranges::any_of(made.plans, &AreaPlan::build);
-  const bool grids =
-      settings.influence_areas.derive && std::ranges::any_of(made.grid_plans, &GridPlan::build);
-  const std::string_view wanted = !name.empty() ? name : any ? local : grids ? light : bvh;
+  const std::string_view why_none = no_grids(world, settings);
+  const std::string_view wanted = !name.empty()      ? name
+                                  : any              ? local
+                                  : why_none.empty() ? light
+                                                     : bvh;
   const auto known = std::ranges::find(accelerator_names(), wanted, &AcceleratorName::name);
   if (known == accelerator_names().end())
     throw std::invalid_argument("unknown accelerator '" + std::string(wanted) + "'");
   made.name = known->name;
   if (made.name == local) {
-    std::vector<LocalArea> areas;
-    for (std::size_t i = 0; i < made.areas.size(); ++i)
-      if (made.plans[i].build) areas.push_back(local_area(made.areas[i]));
-    auto accelerator =
-        make_local_bvhs(world.triangles(), areas, local_config(settings.acceleration));
-    made.local = accelerator.get();
-    made.accelerator = std::move(accelerator);
-  }
-  if (made.name == light) {
-    std::vector<LightBundle> bundles;
-    for (GridPlan& plan : made.grid_plans) {
-      if (!name.empty()) plan = {plan.bundle, plan.expected_rays, true, "asked for"};
-      const auto rays = exact_bundle(world.lights[plan.bundle]);
-      if (plan.build && rays) bundles.push_back({plan.bundle, *rays});
-    }
-    auto accelerator = make_light_grids(world.triangles(), bundles);
-    made.grids = accelerator.get();
-    made.accelerator = std::move(accelerator);
-  }
-  if (made.local == nullptr) {
+    use_areas(made, world, settings.acceleration);
+  } else {
     for (AreaPlan& plan : made.plans)
       if (plan.build) plan = {false, "the accelerator asked for knows no areas"};
   }
-  if (made.grids == nullptr) {
-    for (GridPlan& plan : made.grid_plans)
-      if (plan.build)
-        plan = {plan.bundle, plan.expected_rays, false, "the accelerator knows no grids"};
+  if (made.name == light) {
+    use_grids(made, world, settings, !name.empty());
+    // With no grid it is nothing else.
+    if (name.empty() && made.grids->reports().empty()) made.name = bvh;
+  } else {
+    made.grid_plans =
+        plans_without_grids(world, why_none.empty() ? "the accelerator knows no grids" : why_none);
   }
   if (made.accelerator != nullptr) return made;
   made.accelerator = made.name == bvh           ? make_global_bvh(world.triangles())

@@ -13,6 +13,10 @@ namespace pah {
 [[nodiscard]] Bsdf resolve_material(const Material& material, const TextureStore& textures, Vec2 uv,
                                     float footprint, const Vec3& vertex_color = Vec3(1));
 
+// Whether light may pass.
+[[nodiscard]] inline bool is_masked(const Material& material) {
+  return material.opacity.value != 1 || material.opacity.texture != no_texture;
+}
 // The share of light that is stopped, in [0, 1]; 1 - opacity passes straight through.
 [[nodiscard]] float opacity(const Material& material, const TextureStore& textures, Vec2 uv,
                             float footprint);

@@ -62,10 +62,6 @@ bool acceptable(const Vec3& color) {
          color.z >= 0;
 }
 
-bool is_masked(const Material& material) {
-  return material.opacity.value != 1 || material.opacity.texture != no_texture;
-}
-
 // The footprint of a ray's cone on a surface, in texture coordinates: the ellipse's axes averaged
 // geometrically.
 float footprint_on(const SurfaceInteraction& at, const Vec3& direction, float width) {

@@ -19,17 +19,6 @@ constexpr int tile_size = 32;
 constexpr std::size_t batch_capacity =
     static_cast<std::size_t>(tile_size) * tile_size * RenderSession::batch_samples;
 
-PixelRect pixels_of(const FilmSettings& film) {
-  PixelRect rect{0, film.width, 0, film.height};
-  if (film.crop) {
-    rect.x0 = std::clamp(film.crop->x0, 0, film.width);
-    rect.x1 = std::clamp(film.crop->x1, rect.x0, film.width);
-    rect.y0 = std::clamp(film.crop->y0, 0, film.height);
-    rect.y1 = std::clamp(film.crop->y1, rect.y0, film.height);
-  }
-  return rect;
-}
-
 Film black_film(const FilmSettings& settings) {
   Film film;
   film.rect = pixels_of(settings);

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <pah/render/acceleration.hpp>
 
 #include "report/stats.hpp"
@@ -38,18 +39,16 @@ std::vector<AreaReport> report_areas(const Acceleration& acceleration) {
 }
 
 std::vector<GridReport> report_grids(const Acceleration& acceleration, const World& world) {
+  const std::vector<LightGridReport> built = acceleration.grids != nullptr
+                                                 ? acceleration.grids->reports()
+                                                 : std::vector<LightGridReport>{};
   std::vector<GridReport> reports;
-  std::size_t built = 0;
   for (const GridPlan& plan : acceleration.grid_plans) {
-    GridReport report;
-    report.light = world.lights[plan.bundle].name;
-    report.built = plan.build;
-    report.reason = plan.reason;
-    report.expected_rays = plan.expected_rays;
-    if (plan.build) {
-      const LightGridReport& grid = acceleration.grids->reports()[built++];
-      report.build_seconds = grid.build_seconds;
-      report.bytes = grid.bytes;
+    GridReport report{world.lights[plan.bundle].name, plan, {}, {}};
+    const auto grid = std::ranges::find(built, plan.bundle, &LightGridReport::bundle);
+    if (grid != built.end()) {
+      report.build_seconds = grid->build_seconds;
+      report.bytes = grid->bytes;
     }
     reports.push_back(std::move(report));
   }

@@ -26,12 +26,10 @@ struct AreaReport {
   std::optional<std::uint64_t> sampled_rays;  // of them, that measured_global_cost is of
 };
 
-// The grid of a light that is a point or has one direction, and what became of it.
+// The grid of a light that shadow rays share a point or a direction of, and what became of it.
 struct GridReport {
   std::string light;
-  bool built = false;
-  std::string reason;  // why it was built, or was not
-  double expected_rays = 0;
+  GridPlan plan;
   std::optional<double> build_seconds;  // null in the JSON where nothing was built
   std::optional<std::uint64_t> bytes;
 };

@@ -22,6 +22,10 @@ struct AcceleratorMemory {
   std::uint64_t local_bvhs = 0;
   std::uint64_t light_grids = 0;
   std::uint64_t top_level = 0;
+
+  [[nodiscard]] std::uint64_t total() const {
+    return global_bvh + local_bvhs + light_grids + top_level;
+  }
 };
 
 class Accelerator {

@@ -14,18 +14,24 @@ struct LightBundle {
 };
 
 struct LightGridReport {
+  std::uint32_t bundle = no_bundle;
   std::uint64_t bytes = 0;
   double build_seconds = 0;
 };
 
 class LightGrids : public Accelerator {
  public:
-  // Of each bundle, in their order.
-  [[nodiscard]] virtual const std::vector<LightGridReport>& reports() const = 0;
+  // Builds one more, by the calling arena's threads, or drops one. Not while rays are asked.
+  virtual void add(const LightBundle& bundle) = 0;
+  virtual void remove(std::uint32_t bundle) = 0;
+
+  // Of each bundle that has a grid, ascending.
+  [[nodiscard]] virtual std::vector<LightGridReport> reports() const = 0;
+  [[nodiscard]] virtual double bvh_build_seconds() const = 0;
 };
 
 // Built by the calling arena's threads.
-[[nodiscard]] std::unique_ptr<LightGrids> make_light_grids(Triangles triangles,
-                                                           const std::vector<LightBundle>& bundles);
+[[nodiscard]] std::unique_ptr<LightGrids> make_light_grids(
+    Triangles triangles, const std::vector<LightBundle>& bundles = {});
 
 }  // namespace pah

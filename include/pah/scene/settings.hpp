@@ -1,6 +1,7 @@
 // The settings of a scene: what its film, render, influence_areas and acceleration sections say.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <pah/bvh/build_config.hpp>
@@ -30,6 +31,18 @@ struct FilmSettings {
   std::optional<PixelRect> crop;  // render only these pixels
   bool albedo = false, normal = false, depth = false, variance = false;  // extra EXR channels
 };
+
+// Those to be rendered.
+[[nodiscard]] inline PixelRect pixels_of(const FilmSettings& film) {
+  PixelRect rect{0, film.width, 0, film.height};
+  if (film.crop) {
+    rect.x0 = std::clamp(film.crop->x0, 0, film.width);
+    rect.x1 = std::clamp(film.crop->x1, rect.x0, film.width);
+    rect.y0 = std::clamp(film.crop->y0, 0, film.height);
+    rect.y1 = std::clamp(film.crop->y1, rect.y0, film.height);
+  }
+  return rect;
+}
 
 // How light is found; all three agree in the mean.
 enum class Strategy { mis, nee, bsdf };
@@ -70,6 +83,9 @@ struct AccelerationSettings {
   // Of local BVHs: see BuildConfig, whose ranges and defaults these are.
   int bins = static_cast<int>(BuildConfig{}.bins);
   int max_leaf_triangles = static_cast<int>(BuildConfig{}.max_leaf);
+  // Bytes of all structures that rays are answered by, the global BVH, which is always there,
+  // included.
+  std::optional<std::uint64_t> memory;
 };
 
 }  // namespace pah
