@@ -1,10 +1,11 @@
 // A white diffuse floor under one light: what it reflects is its irradiance over pi, and that has a
-// closed form. A million samples each.
+// closed form. A million samples each, under sanitizers fewer.
 #include <algorithm>
 #include <pah/io/image_file.hpp>
 
 #include "analytic_scenes.hpp"
 #include "catch.hpp"
+#include "support/fewer.hpp"
 #include "support/temporary_folder.hpp"
 
 using namespace pah;
@@ -17,7 +18,7 @@ SceneBuilder floor_seen_from_aside(double scale = 1, DVec3 offset = DVec3(0)) {
   SceneBuilder builder(scale, offset);
   builder.add(RectangleShape{{4, 4}}, builder.diffuse(1));
   builder.look_parallel({1.5, 1, 0}, {0, 0, 0}, 1e-5, {0, 1, 0});
-  builder.film(16, 4096);
+  builder.film(16, fewer_if_sanitized(4096));
   builder.scene.render.max_depth = 1;
   return builder;
 }
@@ -26,7 +27,7 @@ void check_irradiance(const Scene& scene, double expected) {
   const RenderResult result = render_scene(scene);
   const Estimate e = estimate(result.film);
   INFO("mean " << e.mean * pi << " +- " << e.sigma * pi << ", expected " << expected);
-  CHECK(e.samples >= 1e6);
+  CHECK(e.samples >= fewer_if_sanitized(1'000'000));
   CHECK(result.counts.nan_samples == 0);
   CHECK(sigmas_off(e, expected / pi) < 4);
 }

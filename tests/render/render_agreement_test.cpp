@@ -4,6 +4,7 @@
 
 #include "analytic_scenes.hpp"
 #include "catch.hpp"
+#include "support/fewer.hpp"
 
 using namespace pah;
 using namespace pah::test;
@@ -51,7 +52,7 @@ SceneBuilder coarse_ball() {
 }
 
 void check_strategies_agree(Scene scene) {
-  scene.render.samples = 1024;
+  scene.render.samples = fewer_if_sanitized(1024);
   std::array<Estimate, 3> e;
   for (std::size_t i = 0; i < 3; ++i) {
     scene.render.strategy = std::array{Strategy::mis, Strategy::nee, Strategy::bsdf}[i];
@@ -74,7 +75,7 @@ TEST_CASE("next-event estimation, BSDF sampling and both together agree") {
 
 TEST_CASE("Russian roulette does not change the mean") {
   Scene scene = room().scene;
-  scene.render.samples = 512;
+  scene.render.samples = fewer_if_sanitized(512);
   const Estimate without = estimate(scene);
   scene.render.roulette_depth = 1;
   scene.render.seed = 1;
@@ -99,12 +100,12 @@ TEST_CASE("a scene scaled by a power of two gives the identical picture") {
 
 TEST_CASE("neither the unit of length nor the place changes the mean") {
   Scene scene = room().scene;
-  scene.render.samples = 256;
+  scene.render.samples = fewer_if_sanitized(256);
   const Estimate reference = estimate(scene);
   std::uint64_t seed = 1;
   const auto check = [&](double scale, DVec3 offset) {
     Scene other = room(scale, offset).scene;
-    other.render.samples = 256;
+    other.render.samples = scene.render.samples;
     other.render.seed = seed++;
     const Estimate e = estimate(other);
     INFO("scale " << scale << " offset " << offset.x << ": " << e.mean << " +- " << e.sigma
