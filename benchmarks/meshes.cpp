@@ -21,7 +21,8 @@ namespace fs = std::filesystem;
 
 constexpr const char* shapes = "shapes";
 // Two dense surfaces, and a building of large and small triangles.
-constexpr std::array<const char*, 3> mesh_files{"nefertiti", "stanford-bunny", "CottageWalls"};
+constexpr std::array<const char*, 4> mesh_files{"nefertiti", "stanford-bunny", "CottageWalls",
+                                                "WoodScene"};
 
 fs::path mesh_folder() {
   const char* named = std::getenv("PAHRENDER_MESHES");
