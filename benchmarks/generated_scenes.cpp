@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdlib>
 #include <numbers>
 #include <pah/scene/placement.hpp>
 #include <pah/scene/shapes.hpp>
@@ -344,6 +345,17 @@ const Kind* kind_of(const std::string& name) {
 }  // namespace
 
 bool is_generated(const std::string& name) { return kind_of(name) != nullptr; }
+
+bool large_scenes() { return std::getenv("PAHRENDER_LARGE") != nullptr; }
+
+std::vector<std::string> generated_scene_names() {
+  std::vector<std::string> sizes{"100k", "1m"};
+  if (large_scenes()) sizes.emplace_back("5m");
+  std::vector<std::string> names;
+  for (const Kind& kind : kinds)
+    for (const std::string& size : sizes) names.push_back(std::string(kind.name) + "_" + size);
+  return names;
+}
 
 Scene generated_scene(const std::string& name) {
   const double number = std::stod(name.substr(name.find('_') + 1));
