@@ -25,9 +25,8 @@ constexpr std::array<RayKind, 3> shadow_kinds{{
     {"shadow_to_sun", &RecordedRays::to_sun, Query::any},
     {"shadow_to_spot", &RecordedRays::to_spot, Query::any},
 }};
-constexpr std::array<const char*, 6> embree_at_its_best{
-    "embree",        "embree_packet8",        "embree_packet16",
-    "embree_sorted", "embree_sorted_packet8", "embree_sorted_packet16"};
+constexpr std::array<const char*, 5> embree_at_its_best{
+    "embree", "embree_packet8", "embree_packet16", "embree_sorted", "embree_sorted_packet16"};
 
 void add(const RayKind& kind, Sent sent, const std::string& mesh, const std::string& accelerator) {
   const std::string how = sent == Sent::one_at_a_time ? "single_" : "";

@@ -45,7 +45,6 @@ const std::map<std::string, Make> makers{
     {"embree_packet8", make_peer<EmbreeRays::packets_of_8>},
     {"embree_packet16", make_peer<EmbreeRays::packets_of_16>},
     {"embree_sorted", make_sorted_peer<EmbreeRays::single>},
-    {"embree_sorted_packet8", make_sorted_peer<EmbreeRays::packets_of_8>},
     {"embree_sorted_packet16", make_sorted_peer<EmbreeRays::packets_of_16>},
 };
 
