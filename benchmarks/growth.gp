@@ -3,15 +3,16 @@
 set datafile separator ','
 set datafile columnheaders
 set datafile missing NaN
-set terminal svg size 1350,430 background rgb 'white'
+set terminal svg size 1350,480 background rgb 'white'
 set output ARG2
 set multiplot layout 1,3
 set logscale x
+set xrange [9e3:*]
 set format x '%.0s%c'
 set xlabel 'triangles of the forest'
 set grid
 set style data linespoints
-set key noenhanced
+set key noenhanced below maxcols 3
 
 accelerators = 'bvh embree light_grid'
 # The medians of the rows of one light and one accelerator.
@@ -21,7 +22,6 @@ median(light, accelerator, figure) = \
 
 set title 'Millions of rays a second, one thread'
 set yrange [0:*]
-set key right top
 plot for [i=1:3] ARG1 using 'triangles':(1e-6 * median('bulb', word(accelerators, i), 'items_per_second')) \
          title word(accelerators, i) . ', bulb' lt i dt 1, \
      for [i=1:3] ARG1 using 'triangles':(1e-6 * median('sun', word(accelerators, i), 'items_per_second')) \
@@ -30,7 +30,6 @@ plot for [i=1:3] ARG1 using 'triangles':(1e-6 * median('bulb', word(accelerators
 set title 'Seconds of building'
 set logscale y
 set yrange [*:*]
-set key left top
 plot for [i=1:3] ARG1 using 'triangles':(median('bulb', word(accelerators, i), 'build_seconds')) \
          title word(accelerators, i) lt i
 
