@@ -115,7 +115,7 @@ Mesh foliage(std::size_t leaves, std::mt19937& random) {
   const DVec3 center{0, 3.7, 0};
   const DVec3 radii{1.5, 1.8, 1.5};
   const double reach = std::sqrt(area / static_cast<double>(leaves));
-  const auto draw = [&] { return random() * 0x1p-32; };
+  const auto draw = [&] { return static_cast<double>(random()) * 0x1p-32; };
   const auto direction = [&] {
     const double y = 2 * draw() - 1;
     const double angle = 2 * std::numbers::pi * draw();
@@ -274,9 +274,11 @@ void add_buildings(Scene& scene, double triangles) {
   const auto windows = [](double x, double z) { return -0.2 * inside_frame(x, z, 2.25); };
   const DVec3 down{0, -1, 0};
   for (int i = 0; i < blocks * blocks; ++i) {
-    const double height = height_of(i % blocks, i / blocks);
-    const double middle = 0.5 * (blocks - 1);
-    const DVec3 center{pitch * (i % blocks - middle), height / 2, pitch * (i / blocks - middle)};
+    const int x = i % blocks;
+    const int z = i / blocks;
+    const double height = height_of(x, z);
+    constexpr double middle = 0.5 * (blocks - 1);
+    const DVec3 center{pitch * (x - middle), height / 2, pitch * (z - middle)};
     const auto shade = 0.1F * static_cast<float>(i % 3);
     const MaterialId wall = add_material(scene, {0.7F, 0.65F - shade, 0.6F - 2 * shade});
     // Walls stand before the windows' depth.

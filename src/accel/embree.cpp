@@ -1,6 +1,5 @@
-// Embree (3.13 or 4) behind the same interface: a peer to be measured against. By its fastest
-// settings. Its ray-triangle test is its own, so its answers are not ours to the
-// last bit.
+// Embree (3.13 or 4) behind the same interface: a peer to be measured against, by its fastest
+// settings. Its ray-triangle test is its own, so its answers are not ours to the last bit.
 #include <algorithm>
 #include <array>
 #include <atomic>
