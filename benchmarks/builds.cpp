@@ -68,12 +68,12 @@ void add_globals(const std::string& mesh) {
   });
 }
 
-void add_local(const std::string& mesh, const std::string& which, LocalArea MeshScene::*area,
+void add_local(const std::string& mesh, const std::string& which, LightId light,
                Heuristic heuristic) {
   benchmark::RegisterBenchmark(("builds/" + which + "/" + mesh + "/1_thread").c_str(),
                                [=](benchmark::State& state) {
                                  const MeshScene& scene = mesh_scene(mesh);
-                                 measure_local(state, scene, scene.*area, heuristic);
+                                 measure_local(state, scene, scene.areas[light], heuristic);
                                })
       ->Unit(benchmark::kMillisecond);
 }
@@ -84,9 +84,9 @@ void register_builds(const std::vector<std::string>& meshes) {
   add_globals(terrain);
   for (const std::string& mesh : meshes) {
     add_globals(mesh);
-    add_local(mesh, "bulb_sah", &MeshScene::bulb_area, Heuristic::surface_area);
-    add_local(mesh, "bulb_pah", &MeshScene::bulb_area, Heuristic::projected_area);
-    add_local(mesh, "sun_pah", &MeshScene::sun_area, Heuristic::projected_area);
+    add_local(mesh, "bulb_sah", MeshScene::bulb, Heuristic::surface_area);
+    add_local(mesh, "bulb_pah", MeshScene::bulb, Heuristic::projected_area);
+    add_local(mesh, "sun_pah", MeshScene::sun, Heuristic::projected_area);
   }
 }
 

@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <exception>
 
+#include "generated_scenes.hpp"
 #include "meshes.hpp"
 #include "registrations.hpp"
 
@@ -15,6 +16,8 @@ int main(int argc, char** argv) {
     using namespace pah::bench;
     const std::vector<std::string> meshes = mesh_names();
     register_rays(meshes);
+    register_rays(generated_scene_names());
+    register_growth();
     register_builds(meshes);
     register_sampler();
     register_bsdfs();

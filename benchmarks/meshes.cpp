@@ -12,6 +12,7 @@
 #include <pah/scene/placement.hpp>
 #include <pah/scene/shapes.hpp>
 
+#include "generated_scenes.hpp"
 #include "report/study/stage.hpp"
 
 namespace pah::bench {
@@ -21,7 +22,8 @@ namespace fs = std::filesystem;
 
 constexpr const char* shapes = "shapes";
 // Two dense surfaces, and a building of large and small triangles.
-constexpr std::array<const char*, 3> mesh_files{"nefertiti", "stanford-bunny", "CottageWalls"};
+constexpr std::array<const char*, 4> mesh_files{"nefertiti", "stanford-bunny", "CottageWalls",
+                                                "WoodScene"};
 
 fs::path mesh_folder() {
   const char* named = std::getenv("PAHRENDER_MESHES");
@@ -72,8 +74,8 @@ void add_terrain(Scene& scene) {
 
 Scene scene_with(const std::string& mesh) {
   Scene scene = make_stage();
-  scene.render.samples = 8;
-  scene.influence_areas.derive = false;
+  scene.lights.push_back(
+      {"spot", SpotLight{{2.4, 3.4, 1.6}, {-2.4, -2.6, -1.6}, Vec3{36}, 30, 0.15}});
   scene.influence_areas.declared = {
       PointAreaDeclaration{"bulb", {1.6, -2.2, -2.2}, {60, 60}, 0, 10},
       PlaneAreaDeclaration{"sun", {1.6, 4.2, 1.6}, {-1, -2, -1}, {3.6, 3.6}, 8}};
@@ -90,13 +92,14 @@ Scene scene_with(const std::string& mesh) {
 }  // namespace
 
 MeshScene::MeshScene(const std::string& mesh) {
-  const Scene scene = scene_with(mesh);
+  const Scene scene = is_generated(mesh) ? generated_scene(mesh) : scene_with(mesh);
   film = scene.film;
   render = scene.render;
   world = make_world(scene);
-  const std::vector<SceneArea> areas = areas_of(world, scene.influence_areas, film);
-  bulb_area = {areas[0].area, areas[0].bundle};
-  sun_area = {areas[1].area, areas[1].bundle};
+  render.samples = 8;
+  const InfluenceSettings declared{false, scene.influence_areas.declared};
+  for (const SceneArea& area : areas_of(world, declared, film))
+    areas.push_back({area.area, area.bundle});
 }
 
 std::vector<std::string> mesh_names() {

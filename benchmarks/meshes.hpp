@@ -1,4 +1,5 @@
-// The scenes that rays and builds are measured on: a mesh on a floor, under a bulb and a sun.
+// The scenes that rays and builds are measured on: a mesh on a floor, or a generated scene, under a
+// bulb, a sun and a spot.
 #pragma once
 
 #include <pah/accel/local_bvhs.hpp>
@@ -11,13 +12,13 @@ namespace pah::bench {
 struct MeshScene {
   explicit MeshScene(const std::string& mesh);
 
-  static constexpr LightId bulb = 0, sun = 1;
+  static constexpr LightId bulb = 0, sun = 1, spot = 2;
 
   FilmSettings film;
   RenderSettings render;
   World world;
-  // They hold the mesh and little else.
-  LocalArea bulb_area, sun_area;
+  // The bulb's and the sun's, which hold the mesh and little else. Generated scenes have none.
+  std::vector<LocalArea> areas;
 };
 
 // A million triangles, made here: for builds only.

@@ -21,16 +21,25 @@ class Recorder final : public Accelerator {
   // They come grouped by light.
   void occluded(std::span<const Ray> rays, std::span<std::uint8_t> results,
                 TraversalCounts* counts) const override {
-    const auto first_to_sun = std::ranges::find(rays, MeshScene::sun, &Ray::bundle);
-    const auto to_bulb = static_cast<std::size_t>(first_to_sun - rays.begin());
-    keep(rays.first(to_bulb), rays_.to_bulb);
-    keep(rays.subspan(to_bulb), rays_.to_sun);
+    for (auto left = rays; !left.empty();) {
+      const LightId light = left.front().bundle;
+      const auto end =
+          std::ranges::find_if(left, [&](const Ray& ray) { return ray.bundle != light; });
+      const auto size = static_cast<std::size_t>(end - left.begin());
+      keep(left.first(size), to_light(light));
+      left = left.subspan(size);
+    }
     bvh_->occluded(rays, results, counts);
   }
 
   [[nodiscard]] AcceleratorMemory memory() const override { return bvh_->memory(); }
 
  private:
+  [[nodiscard]] RayBatches& to_light(LightId light) const {
+    if (light == MeshScene::bulb) return rays_.to_bulb;
+    return light == MeshScene::sun ? rays_.to_sun : rays_.to_spot;
+  }
+
   static void keep(std::span<const Ray> rays, RayBatches& batches) {
     if (!rays.empty()) batches.emplace_back(rays.begin(), rays.end());
   }

@@ -16,6 +16,7 @@ struct RecordedRays {
   RayBatches bounce;
   RayBatches to_bulb;
   RayBatches to_sun;
+  RayBatches to_spot;
 };
 
 // Renders the scene and listens.

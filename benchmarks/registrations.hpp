@@ -8,6 +8,7 @@
 namespace pah::bench {
 
 void register_rays(const std::vector<std::string>& meshes);
+void register_growth();
 void register_builds(const std::vector<std::string>& meshes);
 void register_sampler();
 void register_bsdfs();

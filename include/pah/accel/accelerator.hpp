@@ -50,10 +50,13 @@ class Accelerator {
 
 // Embree, as a peer to measure against: its ray-triangle test is its own, so that its answers are
 // not the others' to the last bit, and it counts nothing. Null if this was built without Embree.
-// High quality splits triangles; medium is binned SAH, as ours is.
+// High quality splits triangles; medium is binned SAH, as ours is. Packets are of rays searched for
+// any hit; those searched for the nearest one are asked one at a time.
 enum class EmbreeQuality : std::uint8_t { medium, high };
+enum class EmbreeRays : std::uint8_t { single, packets_of_8, packets_of_16 };
 [[nodiscard]] std::unique_ptr<Accelerator> make_embree(Triangles triangles,
-                                                       EmbreeQuality quality = EmbreeQuality::high);
+                                                       EmbreeQuality quality = EmbreeQuality::high,
+                                                       EmbreeRays rays = EmbreeRays::single);
 [[nodiscard]] bool has_embree();
 
 // One BVH over all triangles, by the surface area heuristic, built by the calling arena's threads.
