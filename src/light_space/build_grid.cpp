@@ -1,13 +1,14 @@
 #include <algorithm>
 #include <atomic>
-#include <bit>
 #include <cmath>
-#include <utility>
 
 #include "geometry/ray_box.hpp"
 #include "geometry/rounding.hpp"
+#include "light_space/cell_entries.hpp"
+#include "light_space/grid_layout.hpp"
 #include "light_space/light_grid.hpp"
 #include "light_space/outline.hpp"
+#include "light_space/reach.hpp"
 #include "parallel/parallel_for.hpp"
 
 namespace pah {
@@ -16,14 +17,13 @@ namespace {
 
 constexpr std::size_t blocks_a_task = 1024;
 
-// A cell for each triangle that a face sees, so that few are in a cell and few cells are empty.
-constexpr double cells_per_triangle = 1;
-constexpr double most_cells_across = 16384;
+// So that few are in a cell and few cells are empty.
+constexpr double cells_per_triangle = 0.25;
 
 constexpr std::size_t usual_entries_a_block = 12;
 
 // Where large triangles overlap, so many cells would list most of them: then there are fewer cells.
-// At last there is one a face, which lists a block once.
+// At last there is one a face, about, which lists a block once.
 constexpr std::uint64_t most_entries_a_block = 32;
 static_assert(most_entries_a_block > CubeView::faces);
 static_assert(most_entries_a_block * ChildRef::max_blocks < 1ULL << 32U);
@@ -62,37 +62,51 @@ double error_of(const ParallelBundle& bundle, const Aabb& origins) {
   return std::sqrt(3.0) * double{rounding} * std::max({size.x, size.y, size.z});
 }
 
-float rounded_down(double x) {
-  const auto rounded = static_cast<float>(x);
-  return double{rounded} > x ? std::nextafter(rounded, -std::numeric_limits<float>::infinity())
-                             : rounded;
+// What a face sees of the triangles of a block.
+struct Outlines {
+  std::array<Outline, TriangleBlock::width> of;
+  std::size_t size = 0;
+
+  [[nodiscard]] std::span<const Outline> all() const { return std::span(of).first(size); }
+};
+
+Range across(const Outlines& outlines, const Range& v) {
+  Range u;
+  for (const Outline& outline : outlines.all()) u.extend(across(outline, v));
+  return u;
 }
 
-// What a face sees: where, and how many triangles.
-struct Extent {
-  Range u, v;
-  std::size_t triangles = 0;
+// Equal parts of an axis, from the first on, as far as there are any.
+struct Parts {
+  double first, per_length;
+  std::uint32_t count;
 
-  void extend(const Extent& other) {
-    u.extend(other.u);
-    v.extend(other.v);
-    triangles += other.triangles;
+  [[nodiscard]] Range at(std::uint32_t i) const {
+    return {first + i / per_length, first + (i + 1) / per_length};
   }
 };
-using Extents = std::array<Extent, CubeView::faces>;
 
-// A block in a cell.
-struct Entry {
-  float nearest;
-  PlaceBytes places;
-  std::uint32_t block;
+// Of places along a row or column of cells, or of tiles.
+struct Indices {
+  std::uint32_t first, last;
 };
+std::optional<Indices> indices_of(const Range& range, const Parts& parts) {
+  const double low = std::floor((range.min - parts.first) * parts.per_length);
+  const double high = std::floor((range.max - parts.first) * parts.per_length);
+  if (!(low < parts.count && high >= 0)) return {};
+  return Indices{static_cast<std::uint32_t>(std::max(low, 0.0)),
+                 static_cast<std::uint32_t>(std::min(high, parts.count - 1.0))};
+}
 
-// An entry before the cells are sorted.
-struct Placed {
-  std::uint32_t cell;
-  Entry entry;
-};
+// The same in cells of so many places, and within one that has some of them.
+Indices in_cells(const Indices& places) {
+  return {places.first / GridCell::places, places.last / GridCell::places};
+}
+Indices within(std::uint32_t cell, const Indices& places) {
+  const std::uint32_t first = cell * GridCell::places;
+  return {std::max(places.first, first) - first,
+          std::min(places.last, first + GridCell::places - 1) - first};
+}
 
 template <typename View>
 class Builder {
@@ -101,21 +115,17 @@ class Builder {
       : grid_(grid), view_(view), error_(error) {}
 
   void build() {
-    const Extents seen = extents();
     for (double density = cells_per_triangle;; density /= 4) {
-      lay_out(seen, density);
-      if (place()) break;
+      lay_out(grid_, density, error_);
+      const std::size_t tasks = (grid_.bvh->blocks.size() + blocks_a_task - 1) / blocks_a_task;
+      CellEntries entries(tasks, grid_.cells.size());
+      if (!place(entries, tasks)) continue;
+      entries.sort_into(grid_);
+      return;
     }
-    sort();
   }
 
  private:
-  // Of the triangles of a block on a face.
-  struct Outlines {
-    std::array<Outline, TriangleBlock::width> of;
-    std::size_t size = 0;
-  };
-
   [[nodiscard]] static std::size_t triangles_in(const TriangleBlock& block) {
     std::size_t count = 1;
     while (count < TriangleBlock::width && block.indices[count] != block.indices[count - 1])
@@ -127,7 +137,7 @@ class Builder {
   // there need not be projected.
   [[nodiscard]] bool may_see(int face, const Aabb& box) const {
     if constexpr (std::is_same_v<View, CubeView>) {
-      if (grid_.faces[static_cast<std::size_t>(face)].columns == 0 && is_laid_out_) return false;
+      if (grid_.faces[static_cast<std::size_t>(face)].columns == 0) return false;
       const DVec3 p = view_.local(face, DVec3(box.min)), q = view_.local(face, DVec3(box.max));
       const DVec3 low = glm::min(p, q), high = glm::max(p, q);
       // At twice the tangent of the border there is room for all errors.
@@ -154,137 +164,56 @@ class Builder {
     }
   }
 
-  [[nodiscard]] Extents extents() const {
-    if constexpr (std::is_same_v<View, ParallelView>) {
-      return {extent_of_box()};
-    } else {
-      return extents_of_outlines();
-    }
-  }
-
-  // Of the corners of the box that holds all: a little more than is seen, and nothing to be looked
-  // for.
-  [[nodiscard]] Extent extent_of_box() const {
-    Extent extent{{}, {}, TriangleBlock::width * grid_.bvh->blocks.size()};
-    const Aabb& box = grid_.origins;
-    for (int corner = 0; corner < 8; ++corner) {
-      const DVec3 at((corner & 1) != 0 ? box.max.x : box.min.x,
-                     (corner & 2) != 0 ? box.max.y : box.min.y,
-                     (corner & 4) != 0 ? box.max.z : box.min.z);
-      const DVec3 local = view_.local(0, at);
-      extent.u.extend(local.x);
-      extent.v.extend(local.y);
-    }
-    return extent;
-  }
-
-  [[nodiscard]] Extents extents_of_outlines() const {
-    return parallel_fold(
-        grid_.bvh->blocks.size(), blocks_a_task, Extents{},
-        [&](std::size_t first, std::size_t last) {
-          Extents extents;
-          for (std::size_t i = first; i < last; ++i) {
-            for_each_face(grid_.bvh->blocks[i], [&](int face, const Outlines& outlines) {
-              Extent& extent = extents[static_cast<std::size_t>(face)];
-              for (std::size_t k = 0; k < outlines.size; ++k) {
-                const Outline& outline = outlines.of[k];
-                for (std::size_t vertex = 0; vertex < outline.size; ++vertex) {
-                  for (const double margin : {-outline.margin, outline.margin}) {
-                    extent.u.extend(outline.vertices[vertex].x + margin);
-                    extent.v.extend(outline.vertices[vertex].y + margin);
-                  }
-                }
-              }
-              extent.triangles += outlines.size;
-            });
-          }
-          return extents;
-        },
-        [](Extents& total, const Extents& part) {
-          for (std::size_t face = 0; face < total.size(); ++face) total[face].extend(part[face]);
-        });
-  }
-
-  void lay_out(const Extents& extents, double density) {
-    std::uint32_t cells = 0;
-    for (std::size_t i = 0; i < extents.size(); ++i) {
-      const Extent& extent = extents[i];
-      if (extent.triangles == 0) continue;
-      const Range u = common(extent.u, view_.limits(static_cast<int>(i), 0));
-      const Range v = common(extent.v, view_.limits(static_cast<int>(i), 1));
-      if (u.empty() || v.empty()) continue;
-      GridFace& face = grid_.faces[i];
-      face.u = rounded_down(u.min);
-      face.v = rounded_down(v.min);
-      const double width = u.max - double{face.u}, height = v.max - double{face.v};
-      const double wanted =
-          std::sqrt(density * static_cast<double>(extent.triangles) / (width * height));
-      face.per_length = static_cast<float>(
-          GridFace::places * std::min(wanted, most_cells_across / std::max(width, height)));
-      const auto count = [&](double length) {
-        return static_cast<std::uint32_t>(length * double{face.per_length} / GridFace::places) + 1;
-      };
-      face.columns = count(width);
-      face.rows = count(height);
-      face.first_cell = cells;
-      cells += face.columns * face.rows;
-    }
-    grid_.cells.resize(cells + std::size_t{1});
-    is_laid_out_ = true;
-  }
-
-  // The places along a row or column of cells that a range has, if any.
-  struct Places {
-    std::uint32_t first, last;
-
-    [[nodiscard]] std::uint32_t first_cell() const { return first / GridFace::places; }
-    [[nodiscard]] std::uint32_t last_cell() const { return last / GridFace::places; }
-    // Within one cell that has some of them.
-    [[nodiscard]] std::uint32_t first_in(std::uint32_t cell) const {
-      return cell == first_cell() ? first % GridFace::places : 0;
-    }
-    [[nodiscard]] std::uint32_t last_in(std::uint32_t cell) const {
-      return cell == last_cell() ? last % GridFace::places : GridFace::places - 1;
-    }
-  };
-  [[nodiscard]] static std::optional<Places> places_of(const Range& range, double first,
-                                                       double per_length, std::uint32_t cells) {
-    const auto most = static_cast<double>(cells) * GridFace::places;
-    const double low = std::floor((range.min - first) * per_length);
-    const double high = std::floor((range.max - first) * per_length);
-    if (!(low < most && high >= 0)) return {};
-    return Places{static_cast<std::uint32_t>(std::max(low, 0.0)),
-                  static_cast<std::uint32_t>(std::min(high, most - 1))};
-  }
-
   // Calls `use(cell, entry)` for every cell that sees something of the block.
   template <typename Use>
   void for_each_cell(const GridFace& face, std::uint32_t block, const Outlines& outlines,
                      const Use& use) const {
-    Range v;
-    for (std::size_t i = 0; i < outlines.size; ++i) {
-      const Outline& outline = outlines.of[i];
-      v.extend(outline.lowest_v() - outline.margin);
-      v.extend(outline.highest_v() + outline.margin);
+    Range u, v;
+    for (const Outline& outline : outlines.all()) {
+      u.extend(outline.range(0));
+      v.extend(outline.range(1));
     }
-    const auto rows = places_of(v, face.v, face.per_length, face.rows);
-    if (!rows) return;
-    const double side = GridFace::places / double{face.per_length};
-    for (std::uint32_t row = rows->first_cell(); row <= rows->last_cell(); ++row) {
-      const Range strip{face.v + row * side, face.v + (row + 1) * side};
-      Range u;
-      for (std::size_t i = 0; i < outlines.size; ++i) u.extend(across(outlines.of[i], strip));
-      const auto columns = places_of(u, face.u, face.per_length, face.columns);
-      if (!columns) continue;
-      const std::uint32_t cells = face.first_cell + row * face.columns;
-      const std::uint32_t first = columns->first_cell(), last = columns->last_cell();
-      for (std::uint32_t column = first; column <= last; ++column) {
-        const DVec2 center(face.u + (column + 0.5) * side, strip.min + 0.5 * side);
-        const double nearest = nearest_in(center, 0.5 * side, outlines);
-        use(cells + column, Entry{stored(nearest),
-                                  place_bytes(columns->first_in(column), columns->last_in(column),
-                                              rows->first_in(row), rows->last_in(row)),
-                                  block});
+    const Parts columns{face.u, face.per_length, face.columns};
+    const Parts rows{face.v, face.per_length, face.rows};
+    const auto crossed = indices_of(v, rows);
+    if (!crossed) return;
+    for (std::uint32_t row = crossed->first; row <= crossed->last; ++row) {
+      const Range strip = rows.at(row);
+      const Range u_in = crossed->first < crossed->last ? across(outlines, strip) : u;
+      const auto tiles = indices_of(u_in, columns);
+      if (!tiles) continue;
+      for (std::uint32_t column = tiles->first; column <= tiles->last; ++column) {
+        const GridTile& tile = grid_.tiles[face.first_tile + row * face.columns + column];
+        const double per_length = double{face.per_length} * tile.across * GridCell::places;
+        const std::uint32_t places = tile.across * GridCell::places;
+        for_each_cell_of(tile, {columns.at(column).min, per_length, places},
+                         {strip.min, per_length, places}, u_in, v, block, outlines, use);
+      }
+    }
+  }
+
+  // The same of a tile, given its places and the ranges of what is seen of the block.
+  template <typename Use>
+  void for_each_cell_of(const GridTile& tile, const Parts& u_places, const Parts& v_places,
+                        const Range& u, const Range& v, std::uint32_t block,
+                        const Outlines& outlines, const Use& use) const {
+    const auto v_seen = indices_of(v, v_places);
+    if (!v_seen) return;
+    const double half = 0.5 * GridCell::places / u_places.per_length;
+    const Indices rows = in_cells(*v_seen);
+    for (std::uint32_t row = rows.first; row <= rows.last; ++row) {
+      const double low = v_places.first + 2 * half * row;
+      const Range u_in = rows.first < rows.last ? across(outlines, {low, low + 2 * half}) : u;
+      const auto u_seen = indices_of(u_in, u_places);
+      if (!u_seen) continue;
+      const Indices columns = in_cells(*u_seen), in_row = within(row, *v_seen);
+      for (std::uint32_t column = columns.first; column <= columns.last; ++column) {
+        const DVec2 center(u_places.first + half * (2 * column + 1), low + half);
+        const Indices in_column = within(column, *u_seen);
+        use(tile.first_cell + row * tile.across + column,
+            CellEntry{stored(nearest_in(center, half, outlines)),
+                      place_bytes(in_column.first, in_column.last, in_row.first, in_row.last),
+                      block});
       }
     }
   }
@@ -293,8 +222,7 @@ class Builder {
   [[nodiscard]] double nearest_in(const DVec2& center, double half,
                                   const Outlines& outlines) const {
     double nearest = std::numeric_limits<double>::infinity();
-    for (std::size_t i = 0; i < outlines.size; ++i) {
-      const Outline& outline = outlines.of[i];
+    for (const Outline& outline : outlines.all()) {
       const double middle = outline.offset + glm::dot(outline.slope, center);
       const double change =
           (std::abs(outline.slope.x) + std::abs(outline.slope.y)) * (half + outline.margin);
@@ -314,14 +242,12 @@ class Builder {
   [[nodiscard]] float stored(double nearest) const { return rounded_down(nearest - 2 * error_); }
 
   // False if that takes too many entries.
-  [[nodiscard]] bool place() {
+  [[nodiscard]] bool place(CellEntries& entries, std::size_t tasks) const {
     const std::size_t blocks = grid_.bvh->blocks.size();
     const std::uint64_t most = most_entries_a_block * blocks;
     std::atomic<std::uint64_t> total = 0;
-    tasks_.assign((blocks + blocks_a_task - 1) / blocks_a_task, {});
-    counts_ = std::vector<std::atomic<std::uint32_t>>(grid_.cells.size());
-    parallel_for(tasks_.size(), 1, [&](std::size_t task) {
-      std::vector<Placed>& placed = tasks_[task];
+    parallel_for(tasks, 1, [&](std::size_t task) {
+      auto& placed = entries.of_task(task);
       placed.reserve(usual_entries_a_block * blocks_a_task);
       const std::size_t last = std::min((task + 1) * blocks_a_task, blocks);
       std::size_t counted = 0;
@@ -330,9 +256,9 @@ class Builder {
         counted = placed.size();
         for_each_face(grid_.bvh->blocks[i], [&](int face, const Outlines& outlines) {
           for_each_cell(grid_.faces[static_cast<std::size_t>(face)], static_cast<std::uint32_t>(i),
-                        outlines, [&](std::uint32_t cell, const Entry& entry) {
+                        outlines, [&](std::uint32_t cell, const CellEntry& entry) {
                           placed.push_back({cell, entry});
-                          counts_[cell].fetch_add(1, std::memory_order_relaxed);
+                          entries.count(cell);
                         });
         });
       }
@@ -341,55 +267,9 @@ class Builder {
     return total <= most;
   }
 
-  void sort() {
-    std::uint32_t sum = 0;
-    for (std::size_t i = 0; i < grid_.cells.size(); ++i) {
-      grid_.cells[i] = {sum, 0};
-      sum += counts_[i].exchange(0, std::memory_order_relaxed);
-    }
-    std::vector<Entry> entries(sum);
-    parallel_for(tasks_.size(), 1, [&](std::size_t task) {
-      for (const Placed& placed : tasks_[task]) {
-        const std::uint32_t before = counts_[placed.cell].fetch_add(1, std::memory_order_relaxed);
-        entries[grid_.cells[placed.cell].first + before] = placed.entry;
-      }
-      tasks_[task] = {};
-    });
-    grid_.lists.resize(std::size_t{3} * sum + LightGrid::read_beyond);
-    parallel_for(grid_.cells.size(), 4096, [&](std::size_t i) {
-      GridCell& cell = grid_.cells[i];
-      cell.count = counts_[i].load(std::memory_order_relaxed);
-      if (cell.count == 0) return;
-      const std::span list(&entries[cell.first], cell.count);
-      std::ranges::sort(list, {}, [](const Entry& e) { return std::pair(e.nearest, e.block); });
-      std::uint32_t* const words = &grid_.lists[std::size_t{3} * cell.first];
-      for (std::size_t k = 0; k < cell.count; ++k) {
-        words[k] = std::bit_cast<std::uint32_t>(list[k].nearest);
-        words[cell.count + k] = list[k].places;
-        words[2 * std::size_t{cell.count} + k] = list[k].block;
-      }
-    });
-    grid_.nearest = nearest_listed();
-    if constexpr (std::is_same_v<View, CubeView>) {
-      if (view_.is_cone()) grid_.cells.back().count = GridCell::unknown;
-    }
-  }
-
-  [[nodiscard]] float nearest_listed() const {
-    float nearest = std::numeric_limits<float>::infinity();
-    for (const GridCell& cell : grid_.cells) {
-      if (cell.count > 0)
-        nearest = std::min(nearest, std::bit_cast<float>(grid_.lists[std::size_t{3} * cell.first]));
-    }
-    return nearest;
-  }
-
   LightGrid& grid_;
   const View& view_;
   double error_;
-  bool is_laid_out_ = false;
-  std::vector<std::vector<Placed>> tasks_;
-  std::vector<std::atomic<std::uint32_t>> counts_;
 };
 
 // Blocks with something nearer to the eye than faces show, by their boxes.
@@ -416,10 +296,16 @@ LightGrid::LightGrid(const Bvh& over, const ExactBundle& bundle)
   const double error = std::visit([&](const auto& b) { return error_of(b, origins); }, bundle);
   if (!(around > 0) || !std::isfinite(error)) {
     origins = {};
-    cells.resize(1);
+    tiles.assign(1, {0, 1});
+    cells.assign(1, {0, 0});
     return;
   }
   std::visit([&](const auto& any) { Builder(*this, any, error).build(); }, view);
+  const auto* parallel = std::get_if<ParallelView>(&view);
+  if (parallel != nullptr && parallel->tangent() > 0) find_reach(*this, parallel->tangent());
+  // A cone's faces end where it does; elsewhere all is seen.
+  const auto* cube = std::get_if<CubeView>(&view);
+  if (cube != nullptr && cube->is_cone()) cells.back().count = GridCell::unknown;
   if (const auto* point = std::get_if<PointBundle>(&bundle))
     near_blocks = blocks_near(over, point->eye, (nearest_on_faces + 4) * error);
 }

@@ -11,19 +11,20 @@
 //
 // Looking up rounds, too, as if the point were seen a little off. For a point light a tangent, of
 // at most 1, has 4 roundings, its distance from the face's corner, of at most 2, one, and that in
-// cells another: 8 u M. For a direction there are 5 roundings of three products of no more than
+// tiles another: 8 u M. For a direction there are 5 roundings of three products of no more than
 // sqrt(3)/2 M in all, and 2 of a distance of sqrt(3) M: 8 u M across the rays.
 //
 // Rays to a sun with a size lean against its axis. Each is a line in the light's view, as far as it
-// rises to the nearest triangle, and is looked up in all cells that it crosses (walk.cpp). Where it
-// ends has 12 more roundings of that line's part along the view, which is no longer than its rise
-// of at most sqrt(3) M: 30 u M in all. Its depth where it enters a cell has 5 of the same length.
+// rises to the nearest triangle around, and is looked up in all cells that it crosses (walk.cpp).
+// Where it ends has 15 more roundings of that line's part along the view, which is no longer than
+// its rise of at most sqrt(3) M: 34 u M in all. Its depth where it enters a cell has 5 of the same.
 //
 // A cell lists every block with a triangle that is seen within all of that (outline.hpp) of any of
 // its points. Rays for which this does not hold, or that start where M would be larger, are not
 // answered.
 #pragma once
 
+#include <limits>
 #include <pah/geometry/aabb.hpp>
 #include <span>
 #include <vector>
@@ -33,19 +34,26 @@
 
 namespace pah {
 
-// One side of the light's view as a grid of square cells, each with 128 x 128 places.
+// One side of the light's view as square tiles, each of which is a grid of cells of its own, the
+// finer the more triangles are in it.
 struct GridFace {
-  static constexpr std::uint32_t places = 128;
-
-  float u = 0, v = 0;    // of the first cell's corner
-  float per_length = 0;  // places
+  float u = 0, v = 0;    // of the first tile's corner
+  float per_length = 0;  // tiles
   std::uint32_t columns = 0, rows = 0;
-  std::uint32_t first_cell = 0;
+  std::uint32_t first_tile = 0;
+};
+
+struct GridTile {
+  std::uint32_t first_cell;
+  std::uint32_t across;  // cells, along each axis: a power of two, so that no rounding is added
+  // No ray that starts here meets anything that is nearer. Of leaning rays only.
+  float nearest = -std::numeric_limits<float>::infinity();
 };
 
 // A cell's list, three words a block: all blocks' least depths, ascending, as floats; then the
 // places where something of them is seen; then their numbers.
 struct GridCell {
+  static constexpr std::uint32_t places = 128;  // along each axis
   static constexpr std::uint32_t unknown = 0xFFFFFFFFU;
 
   std::uint32_t first;  // the blocks in all lists before
@@ -57,7 +65,7 @@ struct GridCell {
 using PlaceBytes = std::uint32_t;
 [[nodiscard]] constexpr PlaceBytes place_bytes(std::uint32_t first_u, std::uint32_t last_u,
                                                std::uint32_t first_v, std::uint32_t last_v) {
-  constexpr std::uint32_t last = GridFace::places - 1;
+  constexpr std::uint32_t last = GridCell::places - 1;
   return first_u | (last - last_u) << 8U | first_v << 16U | (last - last_v) << 24U;
 }
 // Bytes have seven bits. With the eighth set none borrows from the next.
@@ -79,17 +87,17 @@ class LightGrid {
                 TraversalCounts* counts) const;
 
   [[nodiscard]] std::uint64_t memory_bytes() const {
-    return cells.capacity() * sizeof(GridCell) + lists.capacity() * sizeof(lists[0]) +
-           near_blocks.capacity() * sizeof(near_blocks[0]);
+    return tiles.capacity() * sizeof(GridTile) + cells.capacity() * sizeof(GridCell) +
+           lists.capacity() * sizeof(lists[0]) + near_blocks.capacity() * sizeof(near_blocks[0]);
   }
 
   // What the kernels look up.
   const Bvh* bvh;
   std::variant<CubeView, ParallelView> view;
-  Aabb origins;       // where rays may start
-  float nearest = 0;  // the least depth in any list
+  Aabb origins;  // where rays may start
   std::array<GridFace, CubeView::faces> faces{};
-  std::vector<GridCell> cells;  // by face, row and column; the last one is what is outside of them
+  std::vector<GridTile> tiles;  // by face, row and column; the last one is what is outside of them
+  std::vector<GridCell> cells;  // by tile, row and column
   std::vector<std::uint32_t> lists;
   std::vector<std::uint32_t> near_blocks;  // too near to the light to have a place on its faces
 };

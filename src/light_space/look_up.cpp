@@ -60,19 +60,32 @@ HWY_INLINE bool is_of(const ParallelView& view, const Ray& ray) {
   return ray.direction == view.toward();
 }
 
-// Where a ray starts.
-HWY_INLINE Place place_of(const LightGrid& grid, const Seen& seen, std::size_t i) {
-  constexpr std::uint32_t places = GridFace::places;
+// The tile where a ray starts, and where in it, in shares of its side.
+struct InTile {
+  std::uint32_t tile;
+  float u, v;
+};
+HWY_INLINE InTile in_tile(const LightGrid& grid, const Seen& seen, std::size_t i) {
   const GridFace& face = grid.faces[static_cast<std::size_t>(seen.face[i])];
   const float u = (seen.u[i] - face.u) * face.per_length;
   const float v = (seen.v[i] - face.v) * face.per_length;
-  const bool inside = u >= 0 && v >= 0 && u < static_cast<float>(face.columns * places) &&
-                      v < static_cast<float>(face.rows * places);
-  if (!inside) return {static_cast<std::uint32_t>(grid.cells.size() - 1), 0, 0};
-  const auto place_u = static_cast<std::uint32_t>(static_cast<std::int32_t>(u));
-  const auto place_v = static_cast<std::uint32_t>(static_cast<std::int32_t>(v));
+  const bool inside =
+      u >= 0 && v >= 0 && u < static_cast<float>(face.columns) && v < static_cast<float>(face.rows);
+  if (!inside) return {static_cast<std::uint32_t>(grid.tiles.size() - 1), 0, 0};
+  const auto column = static_cast<std::int32_t>(u), row = static_cast<std::int32_t>(v);
+  return {face.first_tile + static_cast<std::uint32_t>(row) * face.columns +
+              static_cast<std::uint32_t>(column),
+          u - static_cast<float>(column), v - static_cast<float>(row)};
+}
+
+HWY_INLINE Place place_of(const LightGrid& grid, const InTile& at, float depth) {
+  constexpr std::uint32_t places = GridCell::places;
+  const GridTile tile = grid.tiles[at.tile];
+  const auto across = static_cast<float>(tile.across * places);
+  const auto place_u = static_cast<std::uint32_t>(static_cast<std::int32_t>(at.u * across));
+  const auto place_v = static_cast<std::uint32_t>(static_cast<std::int32_t>(at.v * across));
   const std::uint32_t u_in = place_u % places, v_in = place_v % places;
-  return {face.first_cell + place_v / places * face.columns + place_u / places, seen.depth[i],
+  return {tile.first_cell + place_v / places * tile.across + place_u / places, depth,
           place_bytes(u_in, u_in, v_in, v_in) | eighth_bits};
 }
 
@@ -87,11 +100,16 @@ HWY_INLINE void look_up(const LightGrid& grid, const View& view, std::span<const
   }
   Seen seen;
   see(view, x, y, z, seen);
-  Place places[batch_size];
+  InTile tiles[batch_size];
   for (std::size_t i = 0; i < rays.size(); ++i) {
     answers[i] = is_of(view, rays[i]) && holds(grid.origins, rays[i].origin) ? Answer::free
                                                                              : Answer::unknown;
-    places[i] = place_of(grid, seen, i);
+    tiles[i] = in_tile(grid, seen, i);
+    __builtin_prefetch(&grid.tiles[tiles[i].tile]);
+  }
+  Place places[batch_size];
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    places[i] = place_of(grid, tiles[i], seen.depth[i]);
     __builtin_prefetch(&grid.cells[places[i].cell]);
   }
   for (std::size_t i = 0; i < rays.size(); ++i) {

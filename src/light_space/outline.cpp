@@ -105,7 +105,7 @@ std::optional<Outline> outline_on(const CubeView& view, int face, const Triangle
     outline.vertices[i] = {q.x / q.z, q.y / q.z};
     outline.nearest = std::min(outline.nearest, q.z);
   }
-  outline.margin = 2.25 * error / outline.nearest;
+  outline.margin = margin_at(outline.nearest, error);
   outline.offset = 1 / outline.nearest;
   const DVec3 normal = glm::cross(p[1] - p[0], p[2] - p[0]);
   const double distance = glm::dot(normal, p[0]);

@@ -24,21 +24,20 @@ struct Outline {
   DVec2 slope{0};
   double offset = 0;
 
-  [[nodiscard]] double lowest_v() const {
-    double lowest = vertices[0].y;
-    for (std::size_t i = 1; i < size; ++i) lowest = std::min(lowest, vertices[i].y);
-    return lowest;
-  }
-  [[nodiscard]] double highest_v() const {
-    double highest = vertices[0].y;
-    for (std::size_t i = 1; i < size; ++i) highest = std::max(highest, vertices[i].y);
-    return highest;
+  // Along u or v, widened by the margin.
+  [[nodiscard]] Range range(int axis) const {
+    Range range;
+    for (std::size_t i = 0; i < size; ++i) range.extend(vertices[i][axis]);
+    return {range.min - margin, range.max + margin};
   }
 };
 
 // What is nearer to a point light than this many errors has no place on a face: errors would move
 // it across the whole of it.
 inline constexpr double nearest_on_faces = 64;
+
+// Along u and v, where rays meet in a point: see below.
+[[nodiscard]] inline double margin_at(double depth, double error) { return 2.25 * error / depth; }
 
 // What is seen of a triangle on a face, if anything. `error` is how far from the triangle, along
 // every axis of the face, a ray may be that is found to hit it. Where rays meet in a point, that

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace pah {
@@ -22,6 +23,13 @@ struct Range {
 
 [[nodiscard]] inline Range common(const Range& a, const Range& b) {
   return {std::max(a.min, b.min), std::min(a.max, b.max)};
+}
+
+// To a float that is no larger.
+[[nodiscard]] inline float rounded_down(double x) {
+  const auto rounded = static_cast<float>(x);
+  return double{rounded} > x ? std::nextafter(rounded, -std::numeric_limits<float>::infinity())
+                             : rounded;
 }
 
 }  // namespace pah

@@ -5,8 +5,10 @@
 
 namespace pah {
 
-// As LightGrid::occluded. Any ray toward the light's half of directions may be asked: those that
-// lean by more than 45 degrees, or cross many cells, remain unknown.
+// Rounded directions lean a little more than exact ones.
+inline constexpr float leaning_allowance = 1 + 0x1p-10F;
+
+// As LightGrid::occluded. Rays that lean more, or cross many cells, remain unknown.
 void walk(const LightGrid& grid, const ParallelView& view, std::span<const Ray> rays,
           std::span<LightGrid::Answer> answers, TraversalCounts* counts);
 

@@ -51,9 +51,13 @@ Ray to_light(const PointBundle& light, const Vec3& from, Random& random) {
 Ray to_light(const ParallelBundle& light, const Vec3& from, Random& random) {
   Vec3 toward = light.toward;
   if (light.tangent > 0) {
-    toward += light.tangent * random.in_box({Vec3{-1}, Vec3{1}});
-    // Across an axis of the world, at times, and of any length.
-    if (light.tangent >= 0.1F && random.below(8) == 0) toward[static_cast<int>(random.below(3))] = 0;
+    // Half of them lean as far as they may.
+    const Vec3 across = glm::cross(toward, random.in_box({Vec3{-1}, Vec3{1}}));
+    const float share = random.below(2) == 0 ? 1 : random.uniform(0, 1);
+    toward += share * light.tangent * across / std::max(glm::length(across), 0x1p-10F);
+    // Some lean farther, which traverse.
+    if (light.tangent >= 0.1F && random.below(8) == 0)
+      toward[static_cast<int>(random.below(3))] = 0;
     toward *= random.uniform(0.5F, 2);
   }
   return {from, random.below(4) == 0 ? random.uniform(0, 3) : infinity, toward, bundle};
@@ -188,7 +192,8 @@ TEST_CASE("A grid of a light on a surface, an edge or a vertex answers like brut
       setup.check(PointBundle{point_on(t, random)}, 2000, round);
     }
     for (const Vec3& toward : {Vec3{0, 1, 0}, Vec3{1, 0, 0}, Vec3{0, 0, -1}}) {
-      for (const float tangent : {0.0F, 0.005F}) setup.check(ParallelBundle{toward, tangent}, 2000, 9);
+      for (const float tangent : {0.0F, 0.005F})
+        setup.check(ParallelBundle{toward, tangent}, 2000, 9);
     }
     // In the plane of a flat grid.
     setup.check(PointBundle{{1.5F, 0, 0.25F}}, 2000, 10);

@@ -1,0 +1,158 @@
+#include "light_space/grid_layout.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <bit>
+#include <cmath>
+
+#include "light_space/outline.hpp"
+#include "parallel/parallel_for.hpp"
+
+namespace pah {
+
+namespace {
+
+// Enough tiles that most have like triangles everywhere, few enough that they stay in the caches.
+constexpr double triangles_per_tile = 16;
+constexpr double most_tiles_across = 8192;
+constexpr std::uint32_t most_cells_across = 256;
+
+struct Extent {
+  Range u, v;
+
+  [[nodiscard]] bool empty() const { return u.empty() || v.empty(); }
+  [[nodiscard]] double area() const { return empty() ? 0 : (u.max - u.min) * (v.max - v.min); }
+};
+
+std::array<DVec3, 8> corners_on(const auto& view, int face, const Aabb& box) {
+  std::array<DVec3, 8> corners;
+  for (unsigned i = 0; i < 8; ++i) {
+    corners[i] = view.local(
+        face, {(i & 1U) != 0 ? box.max.x : box.min.x, (i & 2U) != 0 ? box.max.y : box.min.y,
+               (i & 4U) != 0 ? box.max.z : box.min.z});
+  }
+  return corners;
+}
+
+// Where a face sees something of a box, which holds all rays' origins; a little more where it
+// matters little.
+Extent extent_on(const ParallelView& view, int face, const Aabb& box, double /*error*/) {
+  Extent extent;
+  for (const DVec3& corner : corners_on(view, face, box)) {
+    extent.u.extend(corner.x);
+    extent.v.extend(corner.y);
+  }
+  return extent;
+}
+Extent extent_on(const CubeView& view, int face, const Aabb& box, double error) {
+  const auto corners = corners_on(view, face, box);
+  Range depth;
+  for (const DVec3& corner : corners) depth.extend(corner.z);
+  if (depth.max <= 0) return {};
+  const Extent all{view.limits(face, 0), view.limits(face, 1)};
+  if (depth.min < nearest_on_faces * error) return all;
+  Extent seen;
+  for (const DVec3& corner : corners) {
+    seen.u.extend(corner.x / corner.z);
+    seen.v.extend(corner.y / corner.z);
+  }
+  const double margin = margin_at(depth.min, error);
+  return {common({seen.u.min - margin, seen.u.max + margin}, all.u),
+          common({seen.v.min - margin, seen.v.max + margin}, all.v)};
+}
+
+// On which face a point is seen, and where.
+struct Seen {
+  std::size_t face;
+  DVec2 at;
+};
+Seen seen(const ParallelView& view, const DVec3& point) { return {0, DVec2(view.local(0, point))}; }
+Seen seen(const CubeView& view, const DVec3& point) {
+  const DVec3 away = glm::abs(point - DVec3(view.eye()));
+  const int axis = away.x >= away.y && away.x >= away.z ? 0 : away.y >= away.z ? 1 : 2;
+  const int face = point[axis] < double{view.eye()[axis]} ? axis + 3 : axis;
+  const DVec3 local = view.local(face, point);
+  return {static_cast<std::size_t>(face), DVec2(local) / local.z};
+}
+
+// The last one is outside of all.
+std::size_t tile_of(const LightGrid& grid, const Seen& point) {
+  const GridFace& face = grid.faces[point.face];
+  const DVec2 at = (point.at - DVec2(face.u, face.v)) * double{face.per_length};
+  if (!(at.x >= 0 && at.y >= 0 && at.x < face.columns && at.y < face.rows))
+    return grid.tiles.size() - 1;
+  return face.first_tile + static_cast<std::size_t>(at.y) * face.columns +
+         static_cast<std::size_t>(at.x);
+}
+
+void lay_out_tiles(LightGrid& grid, std::span<const Extent> extents, double tiles) {
+  double area = 0;
+  for (const Extent& extent : extents) area += extent.area();
+  std::uint32_t count = 0;
+  for (std::size_t i = 0; i < extents.size(); ++i) {
+    GridFace& face = grid.faces[i];
+    face = {};
+    if (extents[i].empty()) continue;
+    face.u = rounded_down(extents[i].u.min);
+    face.v = rounded_down(extents[i].v.min);
+    const double width = extents[i].u.max - double{face.u};
+    const double height = extents[i].v.max - double{face.v};
+    const double most = most_tiles_across / std::max(width, height);
+    face.per_length = static_cast<float>(std::min(std::sqrt(tiles / area), most));
+    const auto across = [&](double length) {
+      return static_cast<std::uint32_t>(length * double{face.per_length}) + 1;
+    };
+    face.columns = across(width);
+    face.rows = across(height);
+    face.first_tile = count;
+    count += face.columns * face.rows;
+  }
+  grid.tiles.assign(count + std::size_t{1}, {0, 1});
+}
+
+// By where the middles of the blocks are.
+template <typename View>
+std::vector<std::atomic<std::uint32_t>> blocks_in_tiles(const LightGrid& grid, const View& view) {
+  std::vector<std::atomic<std::uint32_t>> counts(grid.tiles.size());
+  parallel_for(grid.bvh->blocks.size(), 4096, [&](std::size_t i) {
+    const TriangleBlock& block = grid.bvh->blocks[i];
+    Aabb box = block.triangle(0).bounds();
+    for (std::size_t lane = 1; lane < TriangleBlock::width; ++lane)
+      box.extend(block.triangle(lane).bounds());
+    counts[tile_of(grid, seen(view, DVec3(box.center())))].fetch_add(1, std::memory_order_relaxed);
+  });
+  return counts;
+}
+
+// The power of two whose square is nearest, by its ratio.
+std::uint32_t cells_across(double cells) {
+  const double across = std::sqrt(std::max(2 * cells, 1.0));
+  return std::min(std::bit_floor(static_cast<std::uint32_t>(across)), most_cells_across);
+}
+
+template <typename View>
+void lay_out(LightGrid& grid, const View& view, double density, double error) {
+  std::array<Extent, CubeView::faces> extents;
+  for (int face = 0; face < View::faces; ++face)
+    extents[static_cast<std::size_t>(face)] = extent_on(view, face, grid.origins, error);
+  const auto triangles = static_cast<double>(TriangleBlock::width * grid.bvh->blocks.size());
+  lay_out_tiles(grid, extents, density * triangles / triangles_per_tile);
+  const auto counts = blocks_in_tiles(grid, view);
+  std::uint32_t cells = 0;
+  for (std::size_t i = 0; i < grid.tiles.size(); ++i) {
+    const bool outside = i + 1 == grid.tiles.size();
+    const double wanted = density * static_cast<double>(TriangleBlock::width * counts[i].load());
+    const std::uint32_t across = outside ? 1 : cells_across(wanted);
+    grid.tiles[i] = {cells, across};
+    cells += across * across;
+  }
+  grid.cells.assign(cells, {0, 0});
+}
+
+}  // namespace
+
+void lay_out(LightGrid& grid, double density, double error) {
+  std::visit([&](const auto& view) { lay_out(grid, view, density, error); }, grid.view);
+}
+
+}  // namespace pah
