@@ -4,18 +4,11 @@
 
 #include <algorithm>
 
+#include "report/format_bytes.hpp"
 #include "report/json_value.hpp"
 
 namespace pah {
 namespace {
-
-std::string format_bytes(std::uint64_t bytes) {
-  const auto b = static_cast<double>(bytes);
-  if (b >= 1e9) return fmt::format("{:.2f} GB", b / 1e9);
-  if (b >= 1e6) return fmt::format("{:.2f} MB", b / 1e6);
-  if (b >= 1e3) return fmt::format("{:.2f} kB", b / 1e3);
-  return fmt::format("{} bytes", bytes);
-}
 
 double hit_share(const CostSummary& rays) {
   return rays.rays == 0 ? 0 : static_cast<double>(rays.hits) / static_cast<double>(rays.rays);

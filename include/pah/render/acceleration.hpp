@@ -32,9 +32,10 @@ struct Acceleration {
 
 // Of `settings` it takes influence_areas, acceleration, film and render; the geometry is the
 // world's, which must outlive the accelerator. `name` is one of accelerator_names(), or empty: then
-// it is local if there is an area to build, and bvh otherwise. Builds by the calling arena's
-// threads. The accelerator's answers are the same to the last bit whatever the settings, but for
-// Embree's. Throws std::invalid_argument for another name, and as areas_of does.
+// it is local if there is an area to build, light if there are lights whose grids pay, and bvh
+// otherwise. Builds by the calling arena's threads. The accelerator's answers are the same to the
+// last bit whatever the settings, but for Embree's. Throws std::invalid_argument for another name,
+// and as areas_of does.
 [[nodiscard]] Acceleration make_acceleration(const World& world, const Scene& settings,
                                              std::string_view name = {});
 
