@@ -15,6 +15,7 @@
 #include "cli/interrupt.hpp"
 #include "cli/warnings.hpp"
 #include "io/output_file.hpp"
+#include "report/acceleration_warnings.hpp"
 #include "report/box_gltf.hpp"
 #include "report/false_color.hpp"
 #include "report/inspect_report.hpp"
@@ -110,10 +111,15 @@ ExitCode run_inspect(const InspectArguments& arguments) {
                          .memory_bytes = global.built.bvh.memory_bytes(),
                          .build_seconds = global.seconds});
 
-  for (const SceneArea& area : areas_of(world, scene.influence_areas, scene.film))
-    if (plan(local_area(area)).build)
-      report.bvhs.push_back(
-          report_local(world, area, local_config(scene.acceleration), global.built.bvh));
+  // As a render decides.
+  const Acceleration acceleration = make_acceleration(world, scene);
+  warnings.add(warnings_of(acceleration, world, scene));
+  for (std::size_t i = 0; i < acceleration.areas.size(); ++i)
+    if (acceleration.plans[i].build)
+      report.bvhs.push_back(report_local(world, acceleration.areas[i],
+                                         local_config(scene.acceleration), global.built.bvh));
+  report.accelerator = acceleration.name;
+  report.light_grids = report_grids(acceleration, world);
 
   fmt::print("{}", inspect_text(report));
   if (!arguments.json.empty()) write_text_file(arguments.json, inspect_json(report));

@@ -154,8 +154,9 @@ CLI::App* add_compare(CLI::App& app, CompareArguments& arguments) {
 }
 
 CLI::App* add_inspect(CLI::App& app, InspectArguments& arguments) {
-  CLI::App* inspect =
-      app.add_subcommand("inspect", "Print what a scene's BVHs are like and what they cost rays");
+  CLI::App* inspect = app.add_subcommand(
+      "inspect",
+      "Print what a scene's BVHs and the grids of its lights are like and what they cost rays");
   inspect->get_formatter()->column_width(25);
   inspect->add_option("SCENE", arguments.scene, "A YAML file")->required()->type_name("");
   inspect

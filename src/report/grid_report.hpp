@@ -5,6 +5,8 @@
 #include <optional>
 #include <pah/render/acceleration.hpp>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "report/json_value.hpp"
@@ -32,7 +34,13 @@ struct GridReport {
 [[nodiscard]] std::vector<GridReport> report_grids(const Acceleration& acceleration,
                                                    const World& world);
 
-// A list of objects with all names; null stands for what is not known.
+// All numbers of a grid by name; null stands for what is not known.
+[[nodiscard]] std::vector<std::pair<std::string_view, JsonValue>> numbers_of(
+    const GridReport& grid);
+
+// Those, and what they are of; null stands for what is not known.
 [[nodiscard]] JsonValue grids_json(const std::vector<GridReport>& grids);
+// Some lines of what is known.
+[[nodiscard]] std::string grid_text(const GridReport& grid);
 
 }  // namespace pah
