@@ -19,6 +19,7 @@
 #include "report/box_gltf.hpp"
 #include "report/false_color.hpp"
 #include "report/inspect_report.hpp"
+#include "report/structure_map.hpp"
 
 namespace pah::cli {
 namespace {
@@ -34,9 +35,10 @@ void check_outputs(const InspectArguments& arguments) {
                                    extension, file.string()));
   };
   check_extension(arguments.heat_map, "--heatmap", ".png");
+  check_extension(arguments.structures, "--structures", ".png");
   check_extension(arguments.boxes, "--boxes", ".gltf");
-  for (const fs::path* file :
-       {&arguments.json, &arguments.csv, &arguments.heat_map, &arguments.boxes})
+  for (const fs::path* file : {&arguments.json, &arguments.csv, &arguments.heat_map,
+                               &arguments.structures, &arguments.boxes})
     if (!file->empty()) check_can_create(*file);
 }
 
@@ -77,6 +79,14 @@ BvhReport report_local(const World& world, const SceneArea& area, const LocalCon
               BundleCosts{bundle_cost(local.built.bvh, area.area), bundle_cost(global, area.area)},
           .memory_bytes = local.built.bvh.memory_bytes(),
           .build_seconds = local.seconds};
+}
+
+void write_structures(const fs::path& file, const World& world, const Acceleration& acceleration,
+                      const FilmSettings& film) {
+  const StructureMap map = map_structures(world, acceleration, film);
+  write_image(file, {{"", {"R", "G", "B"}, map.image}});
+  fmt::print("\nstructures that answer shadow rays, {}: black is where there are none\n{}",
+             file.string(), legend_text(map));
 }
 
 }  // namespace
@@ -132,6 +142,8 @@ ExitCode run_inspect(const InspectArguments& arguments) {
     fmt::print("\nheat map {}: white is {} nodes on the left, {} triangles on the right\n",
                arguments.heat_map.string(), most.max_nodes, most.max_triangles);
   }
+  if (!arguments.structures.empty())
+    write_structures(arguments.structures, world, acceleration, scene.film);
   return ExitCode::done;
 }
 

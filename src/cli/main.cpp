@@ -179,6 +179,10 @@ CLI::App* add_inspect(CLI::App& app, InspectArguments& arguments) {
                    "nodes on the left, triangles on the right")
       ->type_name("FILE.png");
   inspect
+      ->add_option("--structures", arguments.structures,
+                   "Write a picture of which structure answers each\npixel's shadow rays")
+      ->type_name("FILE.png");
+  inspect
       ->add_option("--boxes", arguments.boxes,
                    "Write the boxes of the topmost levels as lines, a\ncolor for each level")
       ->type_name("FILE.gltf");

@@ -15,14 +15,16 @@ TEST_CASE("inspect reports, and writes what it is asked for") {
   write_file("scene.yaml", small_scene);
   const Outcome outcome =
       run({"inspect", "scene.yaml", "--width", "40", "-D", "film.width=64", "--json", "r.json",
-           "--csv", "r.csv", "--heatmap", "heat.png", "--boxes", "boxes.gltf", "--levels", "2"});
+           "--csv", "r.csv", "--heatmap", "heat.png", "--boxes", "boxes.gltf", "--levels", "2",
+           "--structures", "structures.png"});
   INFO(outcome.err);
   REQUIRE(outcome.exit_code == 0);
   CHECK(outcome.err.empty());
-  for (const char* part : {"14 triangles", "expected cost", "camera rays", "heat.png"})
+  for (const char* part : {"14 triangles", "expected cost", "camera rays", "heat.png",
+                           "structures.png", "gray      global BVH"})
     CHECK(outcome.out.find(part) != std::string::npos);
-  CHECK(files() ==
-        std::vector<std::string>{"boxes.gltf", "heat.png", "r.csv", "r.json", "scene.yaml"});
+  CHECK(files() == std::vector<std::string>{"boxes.gltf", "heat.png", "r.csv", "r.json",
+                                            "scene.yaml", "structures.png"});
 
   const auto report = nlohmann::json::parse(read_file("r.json"));
   CHECK(report["scene"] == "scene.yaml");
@@ -63,6 +65,7 @@ TEST_CASE("inspect reports, and writes what it is asked for") {
   const pah::Image heat = pah::read_image("heat.png");
   CHECK(heat.width == 2 * 40);
   CHECK(heat.height == 15);
+  CHECK(pah::read_image("structures.png").width == 40);
   CHECK(nlohmann::json::parse(read_file("boxes.gltf"))["meshes"].size() == 2);
 }
 
@@ -163,6 +166,7 @@ TEST_CASE("inspect ends as it should where it cannot") {
       {{"inspect", "scene.yaml", "--width", "65536", "--height", "65536"}, 2},
       {{"inspect", "scene.yaml", "--heatmap", "heat.exr"}, 2},
       {{"inspect", "scene.yaml", "--boxes", "boxes.obj"}, 2},
+      {{"inspect", "scene.yaml", "--structures", "structures.exr"}, 2},
       {{"--spp", "4", "inspect", "scene.yaml"}, 2},
       {{"inspect", "bad.yaml"}, 3},
       {{"inspect", "scene.yaml", "-D", "film.widht=3"}, 3},
@@ -171,6 +175,7 @@ TEST_CASE("inspect ends as it should where it cannot") {
       {{"inspect", "scene.yaml", "--csv", "missing/r.csv"}, 4},
       {{"inspect", "scene.yaml", "--heatmap", "missing/heat.png"}, 4},
       {{"inspect", "scene.yaml", "--boxes", "missing/boxes.gltf"}, 4},
+      {{"inspect", "scene.yaml", "--structures", "missing/structures.png"}, 4},
   };
   const Words before = files();
   for (const auto& [arguments, exit_code] : cases) {
