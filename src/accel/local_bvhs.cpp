@@ -144,6 +144,12 @@ class LocalBvhsOverGlobal final : public LocalBvhs {
 
   [[nodiscard]] const std::vector<LocalBvhReport>& reports() const override { return reports_; }
 
+  [[nodiscard]] std::optional<std::size_t> area_of(const Ray& ray) const override {
+    const Assignment assigned = ray.bundle == no_bundle ? Assignment{} : assign(ray);
+    return assigned.area == the_global_bvh ? std::nullopt
+                                           : std::optional<std::size_t>(assigned.area);
+  }
+
   [[nodiscard]] std::vector<LocalBvhUse> uses() const override {
     std::vector<LocalBvhUse> uses;
     uses.reserve(counters_.size());

@@ -44,13 +44,13 @@ GridPlan plan_grid(std::uint32_t bundle, const ExactBundle& rays, const GridPilo
   GridPlan plan;
   plan.bundle = bundle;
   plan.pilot = pilot;
+  plan.predicted_bytes = usual_bytes_a_triangle * at.triangles;
   if (pilot.rays == 0 || !(pilot.cost > 0)) {
     plan.reason = "no ray of the pilot goes to it";
     return plan;
   }
   plan.predicted_seconds = pilot.seconds * look_up_cost(rays, pilot.cost) / pilot.cost;
   plan.predicted_build_seconds = build_cost(rays) * at.bvh_build_seconds;
-  plan.predicted_bytes = usual_bytes_a_triangle * at.triangles;
   plan.predicted_saving =
       saving(pilot, plan.predicted_seconds, plan.predicted_build_seconds, at.threads);
   if (plan.predicted_bytes > at.memory_left) {

@@ -15,9 +15,11 @@
 #include "cli/interrupt.hpp"
 #include "cli/warnings.hpp"
 #include "io/output_file.hpp"
+#include "report/acceleration_warnings.hpp"
 #include "report/box_gltf.hpp"
 #include "report/false_color.hpp"
 #include "report/inspect_report.hpp"
+#include "report/structure_map.hpp"
 
 namespace pah::cli {
 namespace {
@@ -33,9 +35,10 @@ void check_outputs(const InspectArguments& arguments) {
                                    extension, file.string()));
   };
   check_extension(arguments.heat_map, "--heatmap", ".png");
+  check_extension(arguments.structures, "--structures", ".png");
   check_extension(arguments.boxes, "--boxes", ".gltf");
-  for (const fs::path* file :
-       {&arguments.json, &arguments.csv, &arguments.heat_map, &arguments.boxes})
+  for (const fs::path* file : {&arguments.json, &arguments.csv, &arguments.heat_map,
+                               &arguments.structures, &arguments.boxes})
     if (!file->empty()) check_can_create(*file);
 }
 
@@ -78,6 +81,14 @@ BvhReport report_local(const World& world, const SceneArea& area, const LocalCon
           .build_seconds = local.seconds};
 }
 
+void write_structures(const fs::path& file, const World& world, const Acceleration& acceleration,
+                      const FilmSettings& film) {
+  const StructureMap map = map_structures(world, acceleration, film);
+  write_image(file, {{"", {"R", "G", "B"}, map.image}});
+  fmt::print("\nstructures that answer shadow rays, {}: black is where there are none\n{}",
+             file.string(), legend_text(map));
+}
+
 }  // namespace
 
 ExitCode run_inspect(const InspectArguments& arguments) {
@@ -110,10 +121,15 @@ ExitCode run_inspect(const InspectArguments& arguments) {
                          .memory_bytes = global.built.bvh.memory_bytes(),
                          .build_seconds = global.seconds});
 
-  for (const SceneArea& area : areas_of(world, scene.influence_areas, scene.film))
-    if (plan(local_area(area)).build)
-      report.bvhs.push_back(
-          report_local(world, area, local_config(scene.acceleration), global.built.bvh));
+  // As a render decides.
+  const Acceleration acceleration = make_acceleration(world, scene);
+  warnings.add(warnings_of(acceleration, world, scene));
+  for (std::size_t i = 0; i < acceleration.areas.size(); ++i)
+    if (acceleration.plans[i].build)
+      report.bvhs.push_back(report_local(world, acceleration.areas[i],
+                                         local_config(scene.acceleration), global.built.bvh));
+  report.accelerator = acceleration.name;
+  report.light_grids = report_grids(acceleration, world);
 
   fmt::print("{}", inspect_text(report));
   if (!arguments.json.empty()) write_text_file(arguments.json, inspect_json(report));
@@ -126,6 +142,8 @@ ExitCode run_inspect(const InspectArguments& arguments) {
     fmt::print("\nheat map {}: white is {} nodes on the left, {} triangles on the right\n",
                arguments.heat_map.string(), most.max_nodes, most.max_triangles);
   }
+  if (!arguments.structures.empty())
+    write_structures(arguments.structures, world, acceleration, scene.film);
   return ExitCode::done;
 }
 

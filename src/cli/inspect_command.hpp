@@ -17,9 +17,10 @@ struct InspectArguments {
   std::vector<std::string> overrides;  // key.path=value
   std::optional<int> width, height;
   std::filesystem::path json, csv;
-  std::filesystem::path heat_map;  // .png
-  std::filesystem::path boxes;     // .gltf
-  std::uint32_t levels = 8;        // of boxes
+  std::filesystem::path heat_map;    // .png
+  std::filesystem::path structures;  // .png
+  std::filesystem::path boxes;       // .gltf
+  std::uint32_t levels = 8;          // of boxes
 };
 
 // Throws UsageError, SceneError or FileError.

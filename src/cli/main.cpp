@@ -154,8 +154,9 @@ CLI::App* add_compare(CLI::App& app, CompareArguments& arguments) {
 }
 
 CLI::App* add_inspect(CLI::App& app, InspectArguments& arguments) {
-  CLI::App* inspect =
-      app.add_subcommand("inspect", "Print what a scene's BVHs are like and what they cost rays");
+  CLI::App* inspect = app.add_subcommand(
+      "inspect",
+      "Print what a scene's BVHs and the grids of its lights are like and what they cost rays");
   inspect->get_formatter()->column_width(25);
   inspect->add_option("SCENE", arguments.scene, "A YAML file")->required()->type_name("");
   inspect
@@ -176,6 +177,10 @@ CLI::App* add_inspect(CLI::App& app, InspectArguments& arguments) {
       ->add_option("--heatmap", arguments.heat_map,
                    "Write a picture of what each pixel's ray costs:\n"
                    "nodes on the left, triangles on the right")
+      ->type_name("FILE.png");
+  inspect
+      ->add_option("--structures", arguments.structures,
+                   "Write a picture of which structure answers each\npixel's shadow rays")
       ->type_name("FILE.png");
   inspect
       ->add_option("--boxes", arguments.boxes,

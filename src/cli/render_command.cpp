@@ -26,7 +26,7 @@
 #include "io/extension.hpp"
 #include "io/image_library.hpp"
 #include "io/output_file.hpp"
-#include "report/area_warnings.hpp"
+#include "report/acceleration_warnings.hpp"
 #include "report/stats.hpp"
 
 namespace pah::cli {
@@ -229,7 +229,7 @@ ExitCode run_render(const RenderArguments& arguments) {
   const Acceleration acceleration = tbb::task_arena(threads).execute(
       [&] { return make_acceleration(world, scene, arguments.accelerator); });
   report.seconds.build = building.seconds();
-  warnings.add(warnings_of(acceleration, world, scene.film));
+  warnings.add(warnings_of(acceleration, world, scene));
   if (warnings.failed()) return ExitCode::scene_error;
 
   std::optional<SavingOnInterrupt> saving;

@@ -54,12 +54,14 @@ void use_areas(Acceleration& made, const World& world, const AccelerationSetting
   build();
   if (!settings.memory || made.accelerator->memory().total() <= *settings.memory) return;
   // As many as there is room for, in their order.
-  std::uint64_t total = made.accelerator->memory().global_bvh;
+  const AcceleratorMemory memory = made.accelerator->memory();
   const std::vector<LocalBvhReport> reports = made.local->reports();
+  const std::uint64_t overhead = memory.top_level / std::max<std::size_t>(reports.size(), 1);
+  std::uint64_t total = memory.global_bvh;
   std::size_t built = 0;
   for (AreaPlan& plan : made.plans) {
     if (!plan.build) continue;
-    const std::uint64_t bytes = reports[built++].bytes;
+    const std::uint64_t bytes = reports[built++].bytes + overhead;
     if (total + bytes > *settings.memory) {
       plan = {false, "it would take more memory than the scene allows"};
     } else {

@@ -1,7 +1,5 @@
 #include "render/grid_choice.hpp"
 
-#include <tbb/task_arena.h>
-
 #include <algorithm>
 #include <chrono>
 #include <functional>
@@ -9,6 +7,7 @@
 #include <numeric>
 #include <pah/bvh/build_config.hpp>
 
+#include "parallel/parallel_for.hpp"
 #include "render/material_eval.hpp"
 #include "render/pilot.hpp"
 
@@ -57,6 +56,12 @@ std::uint64_t memory_left(const Accelerator& accelerator, const AccelerationSett
   return *settings.memory - std::min(taken, *settings.memory);
 }
 
+// Whether it pays or not.
+void ask_for(GridPlan& plan, std::uint64_t bytes, const GridCircumstances& at) {
+  plan.build = bytes <= at.memory_left;
+  plan.reason = plan.build ? "asked for" : "it takes more memory than the scene allows";
+}
+
 }  // namespace
 
 std::string_view no_grids(const World& world, const Scene& settings) {
@@ -87,7 +92,7 @@ std::vector<GridPlan> add_grids(LightGrids& grids, const World& world, const Sce
                                 bool all) {
   GridCircumstances at{.triangles = world.triangles().size(),
                        .bvh_build_seconds = grids.bvh_build_seconds(),
-                       .threads = tbb::this_task_arena::max_concurrency()};
+                       .threads = static_cast<int>(parallel_threads())};
   const std::vector<PilotLight> lights = lights_with_bundles(world);
   const std::vector<PilotRays> pilots = pilot_rays(world, settings, grids, lights);
   std::vector<GridPlan> plans;
@@ -102,18 +107,17 @@ std::vector<GridPlan> add_grids(LightGrids& grids, const World& world, const Sce
     if (!plan.build && !all) continue;
     at.memory_left = memory_left(grids, settings.acceleration);
     plan = plan_grid(plan.bundle, lights[i].rays, *plan.pilot, at);
-    if (!plan.build && !all) continue;
+    if (all) ask_for(plan, plan.predicted_bytes, at);
+    if (!plan.build) continue;
+    const std::uint64_t before = grids.memory().total();
     grids.add({plan.bundle, lights[i].rays});
+    const std::uint64_t bytes = grids.memory().total() - before;
     const std::vector<LightGridReport> reports = grids.reports();
-    const LightGridReport& built =
-        *std::ranges::find(reports, plan.bundle, &LightGridReport::bundle);
+    const double build_seconds =
+        std::ranges::find(reports, plan.bundle, &LightGridReport::bundle)->build_seconds;
     if (!pilots[i].rays.empty())
-      measure_grid(plan, seconds_a_ray(grids, pilots[i].rays), built.build_seconds, built.bytes,
-                   at);
-    if (all) {
-      plan.build = true;
-      plan.reason = "asked for";
-    }
+      measure_grid(plan, seconds_a_ray(grids, pilots[i].rays), build_seconds, bytes, at);
+    if (all) ask_for(plan, bytes, at);
     if (!plan.build) grids.remove(plan.bundle);
   }
   return plans;

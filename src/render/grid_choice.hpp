@@ -13,7 +13,7 @@ namespace pah {
 // Why no light is to have one, if that is clear before there is a BVH; else empty.
 [[nodiscard]] std::string_view no_grids(const World& world, const Scene& settings);
 
-// Adds the grids that pay, the best first, as long as memory lasts; or all that are possible. A
+// Adds the grids that pay, the best first, or all that are possible, as long as memory lasts. A
 // plan for each light that may have one.
 std::vector<GridPlan> add_grids(LightGrids& grids, const World& world, const Scene& settings,
                                 bool all);

@@ -4,7 +4,8 @@
 
 #include "geometry/mix_bits.hpp"
 #include "render/camera_rays.hpp"
-#include "render/surface_interaction.hpp"
+#include "render/seen_point.hpp"
+#include "render/shading_frame.hpp"
 #include "render/warp.hpp"
 
 namespace pah {
@@ -50,50 +51,20 @@ std::vector<Ray> camera_rays(const Camera& camera, const FilmSettings& film) {
   return rays;
 }
 
-// A surface that a path met, on the side that it came from.
-struct Met {
-  SurfacePoint point;
-  Vec3 side{0};
-};
-
-std::vector<Met> meet(const World& world, const Accelerator& accelerator,
-                      const std::vector<Ray>& rays) {
+std::vector<SeenPoint> meet(const World& world, const Accelerator& accelerator,
+                            const std::vector<Ray>& rays) {
   std::vector<Hit> hits(rays.size());
   accelerator.closest_hit(rays, hits);
-  std::vector<Met> met;
-  for (std::size_t i = 0; i < rays.size(); ++i) {
-    if (!hits[i].valid()) continue;
-    const SurfacePoint point = interact(world, hits[i]).point;
-    const bool behind = glm::dot(rays[i].direction, point.normal) > 0;
-    met.push_back({point, behind ? -point.normal : point.normal});
-  }
+  std::vector<SeenPoint> met;
+  for (std::size_t i = 0; i < rays.size(); ++i)
+    if (hits[i].valid()) met.push_back(seen_point(world, rays[i], hits[i]));
   return met;
 }
 
-Ray to_light(const PointBundle& light, const Met& from, std::uint32_t bundle, Random& /*random*/) {
-  return spawn_segment(from.point, light.eye, 0, bundle);
-}
-Ray to_light(const ParallelBundle& light, const Met& from, std::uint32_t bundle, Random& random) {
-  Vec3 direction = light.toward;
-  if (light.tangent > 0) {
-    const Vec2 lean = light.tangent * sample_unit_disk(random.next_2d());
-    direction = glm::normalize(make_frame(light.toward).world_from_local({lean.x, lean.y, 1}));
-  }
-  Ray ray = spawn_ray(from.point, direction);
-  ray.bundle = bundle;
-  return ray;
-}
-
-bool is_lit(const PointBundle& light, const Met& at) {
-  const Vec3 away = at.point.position - light.eye;
-  const float along = glm::dot(light.axis, away);
-  const bool in_cone =
-      light.sine >= 1 ||
-      (along > 0 && along * along >= (1 - light.sine * light.sine) * glm::dot(away, away));
-  return in_cone && glm::dot(at.side, away) < 0;
-}
-bool is_lit(const ParallelBundle& light, const Met& at) {
-  return glm::dot(at.side, light.toward) > 0;
+Vec2 lean_to(const ExactBundle& light, Random& random) {
+  const auto* parallel = std::get_if<ParallelBundle>(&light);
+  return parallel != nullptr && parallel->tangent > 0 ? sample_unit_disk(random.next_2d())
+                                                      : Vec2(0);
 }
 
 }  // namespace
@@ -111,21 +82,18 @@ std::vector<PilotRays> pilot_rays(const World& world, const Scene& settings,
       samples / (static_cast<double>(rays.size()) * static_cast<double>(world.lights.size()));
   Random random(settings.render.seed);
   for (int depth = 0; depth < std::min(settings.render.max_depth, most_surfaces); ++depth) {
-    const std::vector<Met> met = meet(world, accelerator, rays);
+    const std::vector<SeenPoint> met = meet(world, accelerator, rays);
     for (std::size_t i = 0; i < lights.size(); ++i) {
-      for (const Met& at : met) {
-        std::visit(
-            [&](const auto& light) {
-              if (!is_lit(light, at)) return;
-              to[i].expected += worth;
-              if (to[i].rays.size() < most_rays / lights.size())
-                to[i].rays.push_back(to_light(light, at, lights[i].light, random));
-            },
-            lights[i].rays);
+      for (const SeenPoint& at : met) {
+        const ExactBundle& light = lights[i].rays;
+        if (!is_lit(at, light)) continue;
+        to[i].expected += worth;
+        if (to[i].rays.size() < most_rays / lights.size())
+          to[i].rays.push_back(ray_to(at, light, lights[i].light, lean_to(light, random)));
       }
     }
     rays.clear();
-    for (const Met& at : met) {
+    for (const SeenPoint& at : met) {
       const Vec3 local = sample_cosine_hemisphere(random.next_2d());
       rays.push_back(spawn_ray(at.point, make_frame(at.side).world_from_local(local)));
     }

@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <pah/render/acceleration.hpp>
 
 #include "report/stats.hpp"
@@ -32,23 +31,6 @@ std::vector<AreaReport> report_areas(const Acceleration& acceleration) {
       if (use.asked > 0) report.measured_cost = use.cost / static_cast<double>(use.asked);
       if (use.sampled > 0)
         report.measured_global_cost = use.global_cost / static_cast<double>(use.sampled);
-    }
-    reports.push_back(std::move(report));
-  }
-  return reports;
-}
-
-std::vector<GridReport> report_grids(const Acceleration& acceleration, const World& world) {
-  const std::vector<LightGridReport> built = acceleration.grids != nullptr
-                                                 ? acceleration.grids->reports()
-                                                 : std::vector<LightGridReport>{};
-  std::vector<GridReport> reports;
-  for (const GridPlan& plan : acceleration.grid_plans) {
-    GridReport report{world.lights[plan.bundle].name, plan, {}, {}};
-    const auto grid = std::ranges::find(built, plan.bundle, &LightGridReport::bundle);
-    if (grid != built.end()) {
-      report.build_seconds = grid->build_seconds;
-      report.bytes = grid->bytes;
     }
     reports.push_back(std::move(report));
   }

@@ -4,18 +4,11 @@
 
 #include <algorithm>
 
+#include "report/format_bytes.hpp"
 #include "report/json_value.hpp"
 
 namespace pah {
 namespace {
-
-std::string format_bytes(std::uint64_t bytes) {
-  const auto b = static_cast<double>(bytes);
-  if (b >= 1e9) return fmt::format("{:.2f} GB", b / 1e9);
-  if (b >= 1e6) return fmt::format("{:.2f} MB", b / 1e6);
-  if (b >= 1e3) return fmt::format("{:.2f} kB", b / 1e3);
-  return fmt::format("{} bytes", bytes);
-}
 
 double hit_share(const CostSummary& rays) {
   return rays.rays == 0 ? 0 : static_cast<double>(rays.hits) / static_cast<double>(rays.rays);
@@ -107,32 +100,51 @@ JsonValue bvh_json(const BvhReport& bvh) {
   return json;
 }
 
+// Names may come from scenes.
+std::string csv_name(std::string name) {
+  for (std::size_t i = 0; (i = name.find('"', i)) != std::string::npos; i += 2)
+    name.insert(i, 1, '"');
+  return name.find_first_of(",\"\r\n") == std::string::npos ? name : fmt::format("\"{}\"", name);
+}
+
+std::string grid_rows(const GridReport& grid) {
+  const std::string name = csv_name(grid.light);
+  std::string text = fmt::format("{},grid_built,,{}\n", name, grid.plan.build ? 1 : 0);
+  for (const auto& [quantity, value] : numbers_of(grid))
+    if (const std::string number = value.text(); number != "null")
+      text += fmt::format("{},grid_{},,{}\n", name, quantity, number);
+  return text;
+}
+
 }  // namespace
 
 std::string inspect_text(const InspectReport& report) {
   std::string text = fmt::format("{}: {} triangles, {} x {} pixels\n", report.scene,
                                  report.triangles, report.width, report.height);
+  text += fmt::format("rays of a render are answered by: {}\n", report.accelerator);
   for (const BvhReport& bvh : report.bvhs) text += bvh_text(bvh);
+  for (const GridReport& grid : report.light_grids) text += grid_text(grid);
   return text;
 }
 
 std::string inspect_json(const InspectReport& report) {
   JsonValue bvhs = JsonValue::array();
   for (const BvhReport& bvh : report.bvhs) bvhs.push_back(bvh_json(bvh));
-  const JsonValue json{{"version", report.version},     {"scene", report.scene},
-                       {"width", report.width},         {"height", report.height},
-                       {"triangles", report.triangles}, {"bvhs", bvhs}};
+  const JsonValue json{{"version", report.version},
+                       {"scene", report.scene},
+                       {"width", report.width},
+                       {"height", report.height},
+                       {"triangles", report.triangles},
+                       {"accelerator", report.accelerator},
+                       {"bvhs", bvhs},
+                       {"light_grids", grids_json(report.light_grids)}};
   return json.indented_text() + "\n";
 }
 
 std::string inspect_csv(const InspectReport& report) {
   std::string text = "bvh,quantity,at,value\n";
   for (const BvhReport& bvh : report.bvhs) {
-    // Names may come from scenes.
-    std::string name = bvh.name;
-    for (std::size_t i = 0; (i = name.find('"', i)) != std::string::npos; i += 2)
-      name.insert(i, 1, '"');
-    if (name.find_first_of(",\"\r\n") != std::string::npos) name = fmt::format("\"{}\"", name);
+    const std::string name = csv_name(bvh.name);
     const auto row = [&](std::string_view quantity, const std::string& at, auto value) {
       text += fmt::format("{},{},{},{}\n", name, quantity, at, value);
     };
@@ -168,6 +180,7 @@ std::string inspect_csv(const InspectReport& report) {
       row("overlap_of_level", std::to_string(depth), level.overlap);
     }
   }
+  for (const GridReport& grid : report.light_grids) text += grid_rows(grid);
   return text;
 }
 

@@ -1,4 +1,4 @@
-// What `pahrender inspect` tells of a scene's BVHs, for people and for tools.
+// What `pahrender inspect` tells of a scene's BVHs and grids, for people and for tools.
 #pragma once
 
 #include <cstdint>
@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "bvh/analyze.hpp"
+#include "report/grid_report.hpp"
 #include "report/ray_costs.hpp"
 
 namespace pah {
@@ -37,12 +38,14 @@ struct InspectReport {
   int width = 0, height = 0;
   std::uint64_t triangles = 0;
   std::vector<BvhReport> bvhs;
+  std::string accelerator;  // that a render has
+  std::vector<GridReport> light_grids;
 };
 
 [[nodiscard]] std::string inspect_text(const InspectReport& report);
 [[nodiscard]] std::string inspect_json(const InspectReport& report);
 // A row for every number: "bvh,quantity,at,value", where `at` is the level, the triangles of a
-// leaf, which of two, or nothing.
+// leaf, which of two, or nothing. Rows of grids have the light's name and quantities of "grid_...".
 [[nodiscard]] std::string inspect_csv(const InspectReport& report);
 
 }  // namespace pah

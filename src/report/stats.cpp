@@ -47,39 +47,6 @@ JsonValue areas_json(const std::vector<AreaReport>& areas) {
   return json;
 }
 
-// Null without a value.
-template <typename Value>
-std::optional<Value> of(const std::optional<GridPilot>& pilot, Value GridPilot::*member) {
-  return pilot ? std::optional((*pilot).*member) : std::nullopt;
-}
-
-JsonValue grids_json(const std::vector<GridReport>& grids) {
-  JsonValue json = JsonValue::array();
-  for (const GridReport& grid : grids) {
-    const GridPlan& plan = grid.plan;
-    const bool predicted = plan.pilot && plan.pilot->rays > 0;
-    const auto if_predicted = [&](double value) {
-      return predicted ? std::optional(value) : std::nullopt;
-    };
-    json.push_back({{"light", grid.light},
-                    {"built", plan.build},
-                    {"reason", std::string(plan.reason)},
-                    {"expected_rays", of(plan.pilot, &GridPilot::expected_rays)},
-                    {"pilot_rays", of(plan.pilot, &GridPilot::rays)},
-                    {"occluded_share", of(plan.pilot, &GridPilot::occluded_share)},
-                    {"bvh_seconds_per_ray", of(plan.pilot, &GridPilot::seconds)},
-                    {"bvh_cost_per_ray", of(plan.pilot, &GridPilot::cost)},
-                    {"predicted_seconds_per_ray", if_predicted(plan.predicted_seconds)},
-                    {"measured_seconds_per_ray", plan.measured_seconds},
-                    {"predicted_build_seconds", if_predicted(plan.predicted_build_seconds)},
-                    {"build_seconds", grid.build_seconds},
-                    {"predicted_saved_seconds", if_predicted(plan.predicted_saving)},
-                    {"saved_seconds", plan.measured_saving},
-                    {"bytes", grid.bytes}});
-  }
-  return json;
-}
-
 }  // namespace
 
 std::uint64_t peak_memory_bytes() {

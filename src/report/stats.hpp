@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "report/grid_report.hpp"
+
 namespace pah {
 
 // An influence area, and what became of it.
@@ -24,14 +26,6 @@ struct AreaReport {
   std::optional<std::uint64_t> rays;                        // answered by the area alone
   std::optional<std::uint64_t> asked_rays;                  // that measured_cost is of
   std::optional<std::uint64_t> sampled_rays;  // of them, that measured_global_cost is of
-};
-
-// The grid of a light that shadow rays share a point or a direction of, and what became of it.
-struct GridReport {
-  std::string light;
-  GridPlan plan;
-  std::optional<double> build_seconds;  // null in the JSON where nothing was built
-  std::optional<std::uint64_t> bytes;
 };
 
 struct RenderReport {
@@ -58,8 +52,6 @@ struct RenderReport {
 
 // After a render that counted its traversal.
 [[nodiscard]] std::vector<AreaReport> report_areas(const Acceleration& acceleration);
-[[nodiscard]] std::vector<GridReport> report_grids(const Acceleration& acceleration,
-                                                   const World& world);
 
 // The most memory that this process has held, in bytes.
 [[nodiscard]] std::uint64_t peak_memory_bytes();

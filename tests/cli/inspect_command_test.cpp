@@ -15,14 +15,16 @@ TEST_CASE("inspect reports, and writes what it is asked for") {
   write_file("scene.yaml", small_scene);
   const Outcome outcome =
       run({"inspect", "scene.yaml", "--width", "40", "-D", "film.width=64", "--json", "r.json",
-           "--csv", "r.csv", "--heatmap", "heat.png", "--boxes", "boxes.gltf", "--levels", "2"});
+           "--csv", "r.csv", "--heatmap", "heat.png", "--boxes", "boxes.gltf", "--levels", "2",
+           "--structures", "structures.png"});
   INFO(outcome.err);
   REQUIRE(outcome.exit_code == 0);
   CHECK(outcome.err.empty());
-  for (const char* part : {"14 triangles", "expected cost", "camera rays", "heat.png"})
+  for (const char* part : {"14 triangles", "expected cost", "camera rays", "heat.png",
+                           "structures.png", "gray      global BVH"})
     CHECK(outcome.out.find(part) != std::string::npos);
-  CHECK(files() ==
-        std::vector<std::string>{"boxes.gltf", "heat.png", "r.csv", "r.json", "scene.yaml"});
+  CHECK(files() == std::vector<std::string>{"boxes.gltf", "heat.png", "r.csv", "r.json",
+                                            "scene.yaml", "structures.png"});
 
   const auto report = nlohmann::json::parse(read_file("r.json"));
   CHECK(report["scene"] == "scene.yaml");
@@ -63,6 +65,7 @@ TEST_CASE("inspect reports, and writes what it is asked for") {
   const pah::Image heat = pah::read_image("heat.png");
   CHECK(heat.width == 2 * 40);
   CHECK(heat.height == 15);
+  CHECK(pah::read_image("structures.png").width == 40);
   CHECK(nlohmann::json::parse(read_file("boxes.gltf"))["meshes"].size() == 2);
 }
 
@@ -88,6 +91,58 @@ TEST_CASE("inspect tells of the local BVHs that a render has") {
   CHECK(read_file("r.csv").find("bundle_cost,global,") != std::string::npos);
 }
 
+TEST_CASE("inspect tells which lights have grids, and why") {
+  const CurrentTemporaryFolder folder;
+  const std::string ball =
+      "camera: {position: [0, 1, 3], look_at: [0, 0, 0]}\n"
+      "film: {width: 32, height: 24}\n"
+      "meshes: [{shape: sphere, segments: 128, rings: 64}]\n"
+      "lights: [{name: bulb, type: point, position: [1, 4, 1]}, {name: \"a, \\\"b\\\"\", type: "
+      "directional, direction: [0, 1, 3]}, {name: sky, type: environment}]\n"
+      "render: {max_depth: 1, samples: ";
+  write_file("scene.yaml", ball + "64}\n");
+  const Outcome outcome = run({"inspect", "scene.yaml", "--json", "r.json", "--csv", "r.csv"});
+  INFO(outcome.err);
+  REQUIRE(outcome.exit_code == 0);
+  const auto report = nlohmann::json::parse(read_file("r.json"));
+  CHECK(report["accelerator"] == "bvh");
+  REQUIRE(report["light_grids"].size() == 2);
+  const auto& bulb = report["light_grids"][0];
+  CHECK(bulb["light"] == "bulb");
+  CHECK(bulb["built"] == false);
+  CHECK(bulb["expected_rays"].get<double>() > 0);
+  CHECK(bulb["expected_rays"].get<double>() < 32 * 24 * 64 / 3.0);
+  CHECK(bulb["pilot_rays"].get<int>() > 0);
+  CHECK(bulb["occluded_share"].get<double>() <= 1);
+  CHECK(bulb["bvh_seconds_per_ray"].get<double>() > 0);
+  CHECK(bulb["predicted_seconds_per_ray"].get<double>() > 0);
+  CHECK(bulb["build_seconds"].is_null());
+  const auto& below = report["light_grids"][1];
+  CHECK(below["light"] == "a, \"b\"");
+  CHECK(below["reason"] == "no ray of the pilot goes to it");
+  CHECK(below["pilot_rays"] == 0);
+  for (const char* part : {"rays of a render are answered by: bvh", "Grid of light bulb: not built",
+                           "no ray of the pilot goes to it", "a ray in the BVH"})
+    CHECK(contains(outcome.out, part));
+  const std::string csv = read_file("r.csv");
+  CHECK(contains(csv, "\nbulb,grid_built,,0\n"));
+  CHECK(contains(csv, "\nbulb,grid_expected_rays,,"));
+  CHECK(contains(csv, "\n\"a, \"\"b\"\"\",grid_pilot_rays,,0\n"));
+  CHECK(!contains(csv, "null"));
+
+  const auto reason_with = [](const std::string& key) {
+    REQUIRE(run({"inspect", "scene.yaml", "-D", "render.samples=1000000", "-D", key, "--json",
+                 "r.json"})
+                .exit_code == 0);
+    return nlohmann::json::parse(read_file("r.json"))["light_grids"][0]["reason"];
+  };
+  CHECK(reason_with("influence_areas=off") == "the scene asks for no derived areas");
+  CHECK(reason_with("acceleration.memory=1 MB") ==
+        "it would take more memory than the scene allows");
+  CHECK(contains(run({"inspect", "scene.yaml", "-D", "acceleration.memory=1 kB"}).err,
+                 "warning: the BVH of the whole scene takes"));
+}
+
 TEST_CASE("inspect takes scenes of nothing") {
   const CurrentTemporaryFolder folder;
   write_file("scene.yaml", "film: {width: 8, height: 6}\n");
@@ -111,6 +166,7 @@ TEST_CASE("inspect ends as it should where it cannot") {
       {{"inspect", "scene.yaml", "--width", "65536", "--height", "65536"}, 2},
       {{"inspect", "scene.yaml", "--heatmap", "heat.exr"}, 2},
       {{"inspect", "scene.yaml", "--boxes", "boxes.obj"}, 2},
+      {{"inspect", "scene.yaml", "--structures", "structures.exr"}, 2},
       {{"--spp", "4", "inspect", "scene.yaml"}, 2},
       {{"inspect", "bad.yaml"}, 3},
       {{"inspect", "scene.yaml", "-D", "film.widht=3"}, 3},
@@ -119,6 +175,7 @@ TEST_CASE("inspect ends as it should where it cannot") {
       {{"inspect", "scene.yaml", "--csv", "missing/r.csv"}, 4},
       {{"inspect", "scene.yaml", "--heatmap", "missing/heat.png"}, 4},
       {{"inspect", "scene.yaml", "--boxes", "missing/boxes.gltf"}, 4},
+      {{"inspect", "scene.yaml", "--structures", "missing/structures.png"}, 4},
   };
   const Words before = files();
   for (const auto& [arguments, exit_code] : cases) {

@@ -58,8 +58,26 @@ TEST_CASE("a scene with nothing in it has every default") {
   CHECK(scene.influence_areas.derive);
   CHECK(scene.acceleration.bins == 16);
   CHECK(scene.acceleration.heuristic == std::nullopt);
+  CHECK(scene.acceleration.memory == std::nullopt);
   CHECK(scene.instances.empty());
   CHECK(scene.lights.empty());
+}
+
+TEST_CASE("memory is a number with a unit") {
+  const auto bytes = [](const std::string& size) {
+    return load("acceleration: {memory: " + size + "}").scene.acceleration.memory;
+  };
+  CHECK(bytes("1 B") == 1);
+  CHECK(bytes("3KiB") == 3072);
+  CHECK(bytes("1.5 MiB") == 3 << 19);
+  CHECK(bytes("2 GiB") == std::uint64_t{1} << 31);
+  CHECK(bytes("\"1  tib\"") == std::uint64_t{1} << 40);
+  CHECK(bytes("4 kB") == 4'000);
+  CHECK(bytes("5 mb") == 5'000'000);
+  CHECK(bytes("0.25 GB") == 250'000'000);
+  CHECK(bytes("6 TB") == 6'000'000'000'000);
+  CHECK(bytes("0.1 B") == 1);
+  CHECK(bytes("99999999999999 TiB") == UINT64_MAX);
 }
 
 TEST_CASE("every material has its defaults") {

@@ -132,6 +132,10 @@ std::vector<Json> border_values(const std::string& key, const Json& property) {
         values.push_back(low ? value - 1 : value * 2 + 1);
       }
   }
+  if (key == "memory")
+    values.insert(values.end(), {"2 GiB", "512mb", "1.5  Tb", "0.5 KiB", "3. B", "99999999999 TB",
+                                 "0 B", "0.0 MB", "-1 GiB", "+1 GiB", "2", "GiB", "1e3 MB", "2 GX",
+                                 "2 iB", "2 GiB ", "", 2});
   if (type == "array" && property.contains("minItems")) {
     const Json list = some_value("", property);
     values.push_back(list);

@@ -245,5 +245,17 @@ TEST_CASE("bad lights and influence areas") {
        "scene.yaml:1:36: error: 'max_leaf_triangles' of acceleration must be a whole number "
        "between "
        "1 and 32, not 33"},
+      {"acceleration: {memory: 2}",
+       "scene.yaml:1:24: error: 'memory' of acceleration must be a number greater than 0 and a "
+       "unit "
+       "(B, KiB, MiB, GiB, TiB, KB, MB, GB, TB), such as '2 GiB', not 2"},
+      {"acceleration:\n  memory: 0 GiB",
+       "scene.yaml:2:11: error: 'memory' of acceleration must be a number greater than 0 and a "
+       "unit "
+       "(B, KiB, MiB, GiB, TiB, KB, MB, GB, TB), such as '2 GiB', not '0 GiB'"},
+      {"acceleration: {memory: [2 GiB]}",
+       "scene.yaml:1:24: error: 'memory' of acceleration must be a number greater than 0 and a "
+       "unit "
+       "(B, KiB, MiB, GiB, TiB, KB, MB, GB, TB), such as '2 GiB', not a list of 1"},
   });
 }

@@ -2,6 +2,7 @@
 // global BVH answers whatever no area can.
 #pragma once
 
+#include <optional>
 #include <pah/accel/accelerator.hpp>
 #include <pah/bvh/build_config.hpp>
 #include <pah/influence/influence_area.hpp>
@@ -49,6 +50,8 @@ class LocalBvhs : public Accelerator {
   // Both in the order of the areas.
   [[nodiscard]] virtual const std::vector<LocalBvhReport>& reports() const = 0;
   [[nodiscard]] virtual std::vector<LocalBvhUse> uses() const = 0;
+  // Which of them a ray is searched for in first; none if that is the global BVH.
+  [[nodiscard]] virtual std::optional<std::size_t> area_of(const Ray& ray) const = 0;
 };
 
 // Rays of no area's bundle, and those that an area cannot answer for certain, go to the global BVH.

@@ -1,4 +1,4 @@
-// The influence_areas and acceleration sections.
+// The influence_areas section.
 #include <pah/scene/areas.hpp>
 
 #include "io/scene/reading.hpp"
@@ -94,22 +94,6 @@ void read_influence_areas(SceneReading& reading, const YamlNode* node) {
       read_area(reading, &item, "influence area " + std::to_string(i + 1));
     }
   }
-}
-
-void read_acceleration(SceneReading& reading, const YamlNode* node) {
-  AccelerationSettings& settings = reading.scene.acceleration;
-  read_map(reading.context, node, "acceleration", "acceleration", [&](MapReader& map) {
-    map.option("heuristic", settings.heuristic,
-               EnumNames<std::optional<Heuristic>>{{"auto", std::nullopt},
-                                                   {"sah", Heuristic::surface_area},
-                                                   {"pah", Heuristic::projected_area}});
-    map.option("split_axis", settings.split_axis,
-               EnumNames<SplitAxis>{{"auto", SplitAxis::best},
-                                    {"longest", SplitAxis::longest},
-                                    {"facing", SplitAxis::facing}});
-    map.optional("bins", settings.bins, int{BuildConfig::min_bins}, int{BuildConfig::max_bins});
-    map.optional("max_leaf_triangles", settings.max_leaf_triangles, 1, int{BuildConfig::most_leaf});
-  });
 }
 
 }  // namespace pah

@@ -1,10 +1,12 @@
-#include "report/area_warnings.hpp"
+#include "report/acceleration_warnings.hpp"
 
 #include <fmt/format.h>
 
 #include <cmath>
 #include <optional>
 #include <variant>
+
+#include "report/format_bytes.hpp"
 
 namespace pah {
 namespace {
@@ -47,11 +49,18 @@ bool no_ray_enters(const SceneArea& area, const World& world, const FilmSettings
   return rays && are_apart(*rays, cone_of(point->frustum));
 }
 
-}  // namespace
+void warn_of_memory(const Acceleration& acceleration, const AccelerationSettings& settings,
+                    std::vector<std::string>& warnings) {
+  const std::uint64_t bytes = acceleration.accelerator->memory().global_bvh;
+  if (settings.memory && bytes > *settings.memory)
+    warnings.push_back(
+        fmt::format("the BVH of the whole scene takes {}, more than the {} of 'memory' of "
+                    "acceleration; it is built all the same",
+                    format_bytes(bytes), format_bytes(*settings.memory)));
+}
 
-std::vector<std::string> warnings_of(const Acceleration& acceleration, const World& world,
-                                     const FilmSettings& film) {
-  std::vector<std::string> warnings;
+void warn_of_areas(const Acceleration& acceleration, const World& world, const FilmSettings& film,
+                   std::vector<std::string>& warnings) {
   std::size_t built = 0;
   for (std::size_t i = 0; i < acceleration.areas.size(); ++i) {
     if (!acceleration.plans[i].build) continue;
@@ -69,6 +78,15 @@ std::vector<std::string> warnings_of(const Acceleration& acceleration, const Wor
                       "against {:.3g}",
                       title, report.predicted_cost, report.global_cost));
   }
+}
+
+}  // namespace
+
+std::vector<std::string> warnings_of(const Acceleration& acceleration, const World& world,
+                                     const Scene& settings) {
+  std::vector<std::string> warnings;
+  warn_of_memory(acceleration, settings.acceleration, warnings);
+  warn_of_areas(acceleration, world, settings.film, warnings);
   return warnings;
 }
 

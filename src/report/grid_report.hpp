@@ -1,0 +1,46 @@
+// What became of the grids that lights may have, for people and for tools.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <pah/render/acceleration.hpp>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "report/json_value.hpp"
+
+namespace pah {
+
+// The cells of a grid, each with its list of blocks of triangles.
+struct GridLists {
+  std::uint64_t cells = 0;
+  std::uint64_t empty_cells = 0;
+  std::uint64_t entries = 0;  // of all lists
+  std::uint64_t longest_list = 0;
+};
+
+// The grid of a light that shadow rays share a point or a direction of.
+struct GridReport {
+  std::string light;
+  GridPlan plan;
+  // Of those that were built.
+  std::optional<double> build_seconds{};
+  std::optional<std::uint64_t> bytes{};
+  std::optional<GridLists> lists{};  // where the accelerator tells
+};
+
+[[nodiscard]] std::vector<GridReport> report_grids(const Acceleration& acceleration,
+                                                   const World& world);
+
+// All numbers of a grid by name; null stands for what is not known.
+[[nodiscard]] std::vector<std::pair<std::string_view, JsonValue>> numbers_of(
+    const GridReport& grid);
+
+// Those, and what they are of; null stands for what is not known.
+[[nodiscard]] JsonValue grids_json(const std::vector<GridReport>& grids);
+// Some lines of what is known.
+[[nodiscard]] std::string grid_text(const GridReport& grid);
+
+}  // namespace pah

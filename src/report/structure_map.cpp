@@ -1,0 +1,130 @@
+#include "report/structure_map.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <optional>
+
+#include "image/srgb.hpp"
+#include "parallel/parallel_for.hpp"
+#include "render/camera_rays.hpp"
+#include "render/seen_point.hpp"
+
+namespace pah {
+namespace {
+
+struct NamedColor {
+  std::string_view name;
+  std::array<int, 3> encoded;  // sRGB
+};
+
+// Okabe & Ito, "Color Universal Design" (2008): told apart by color-blind people, too. The first is
+// the global BVH's; of many structures some share one.
+constexpr std::array<NamedColor, 8> colors{{{"gray", {128, 128, 128}},
+                                            {"orange", {230, 159, 0}},
+                                            {"sky blue", {86, 180, 233}},
+                                            {"green", {0, 158, 115}},
+                                            {"yellow", {240, 228, 66}},
+                                            {"blue", {0, 114, 178}},
+                                            {"vermilion", {213, 94, 0}},
+                                            {"purple", {204, 121, 167}}}};
+
+StructureColor color_of(std::string structure, std::size_t index) {
+  const NamedColor& named = colors[index == 0 ? 0 : 1 + (index - 1) % (colors.size() - 1)];
+  StructureColor color{std::move(structure), named.name};
+  for (int i = 0; i < 3; ++i)
+    color.color[i] =
+        linear_from_srgb(static_cast<float>(named.encoded[static_cast<std::size_t>(i)]) / 255);
+  return color;
+}
+
+// The global BVH, then areas and grids that were built, in their order.
+std::vector<StructureColor> legend_of(const World& world, const Acceleration& acceleration) {
+  std::vector<StructureColor> legend{color_of("global BVH", 0)};
+  for (std::size_t i = 0; i < acceleration.areas.size(); ++i)
+    if (acceleration.plans[i].build)
+      legend.push_back(color_of("area " + acceleration.areas[i].name, legend.size()));
+  if (acceleration.grids != nullptr)
+    for (const LightGridReport& grid : acceleration.grids->reports())
+      legend.push_back(color_of("grid of " + world.lights[grid.bundle].name, legend.size()));
+  return legend;
+}
+
+class Structures {
+ public:
+  explicit Structures(const Acceleration& acceleration) : acceleration_(acceleration) {
+    if (acceleration.grids != nullptr) grids_ = acceleration.grids->reports();
+  }
+
+  // Its place in the legend.
+  [[nodiscard]] std::size_t answering(const Ray& ray) const {
+    if (acceleration_.local != nullptr) {
+      const std::optional<std::size_t> area = acceleration_.local->area_of(ray);
+      return area ? 1 + *area : 0;
+    }
+    const auto grid = std::ranges::find(grids_, ray.bundle, &LightGridReport::bundle);
+    if (grid == grids_.end() || traverses(ray)) return 0;
+    return 1 + static_cast<std::size_t>(grid - grids_.begin());
+  }
+
+ private:
+  // A look-up meets no node.
+  [[nodiscard]] bool traverses(const Ray& ray) const {
+    TraversalCounts counts;
+    std::uint8_t occluded = 0;
+    acceleration_.accelerator->occluded({&ray, 1}, {&occluded, 1}, &counts);
+    return counts.inner_nodes > 0;
+  }
+
+  const Acceleration& acceleration_;
+  std::vector<LightGridReport> grids_;
+};
+
+// Those without a bundle are the global BVH's.
+Vec3 color_at(const SeenPoint& at, const World& world, const Structures& structures,
+              const std::vector<StructureColor>& legend) {
+  Vec3 sum(0);
+  int rays = 0;
+  for (std::size_t i = 0; i < world.lights.size(); ++i) {
+    const std::optional<ExactBundle> bundle = exact_bundle(world.lights[i]);
+    if (bundle && !is_lit(at, *bundle)) continue;
+    const std::size_t structure =
+        bundle ? structures.answering(ray_to(at, *bundle, static_cast<LightId>(i))) : 0;
+    sum += legend[structure].color;
+    ++rays;
+  }
+  return rays == 0 ? sum : sum / static_cast<float>(rays);
+}
+
+}  // namespace
+
+StructureMap map_structures(const World& world, const Acceleration& acceleration,
+                            const FilmSettings& film) {
+  StructureMap map{{film.width, film.height, {}}, legend_of(world, acceleration)};
+  const auto width = static_cast<std::size_t>(film.width);
+  const auto height = static_cast<std::size_t>(film.height);
+  map.image.pixels.resize(width * height, Vec3(0));
+  const CameraRays camera_rays(world.camera, film);
+  const Structures structures(acceleration);
+  parallel_for(height, 1, [&](std::size_t row) {
+    for (int x = 0; x < film.width; ++x) {
+      const Ray ray = camera_rays.central(x, static_cast<int>(row));
+      Hit hit;
+      acceleration.accelerator->closest_hit({&ray, 1}, {&hit, 1});
+      if (hit.valid())
+        map.image.pixels[row * width + static_cast<std::size_t>(x)] =
+            color_at(seen_point(world, ray, hit), world, structures, map.legend);
+    }
+  });
+  return map;
+}
+
+std::string legend_text(const StructureMap& map) {
+  std::string text;
+  for (const StructureColor& color : map.legend)
+    text += fmt::format("  {:10}{}\n", color.name, color.structure);
+  return text;
+}
+
+}  // namespace pah

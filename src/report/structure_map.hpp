@@ -1,0 +1,32 @@
+// Which structure answers the shadow rays of each pixel, as colors.
+#pragma once
+
+#include <pah/image/image.hpp>
+#include <pah/render/acceleration.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace pah {
+
+struct StructureColor {
+  std::string structure;
+  std::string_view name;  // of the color
+  Vec3 color{0};          // linear
+};
+
+struct StructureMap {
+  Image image;
+  std::vector<StructureColor> legend;
+};
+
+// Of the shadow rays from the point that a pixel's central ray meets, one to the center of each
+// light that shines on it; where several structures answer them, the mean of their colors. Black
+// where there are none. The whole picture, whatever its crop.
+[[nodiscard]] StructureMap map_structures(const World& world, const Acceleration& acceleration,
+                                          const FilmSettings& film);
+
+// A line for each color.
+[[nodiscard]] std::string legend_text(const StructureMap& map);
+
+}  // namespace pah
