@@ -68,12 +68,13 @@ GridPlan plan_grid(std::uint32_t bundle, const ExactBundle& rays, const GridPilo
 
 void measure_grid(GridPlan& plan, double seconds_a_ray, double build_seconds, std::uint64_t bytes,
                   const GridCircumstances& at) {
+  const GridPilot pilot = plan.pilot.value_or(GridPilot{});
   plan.measured_seconds = seconds_a_ray;
-  plan.measured_saving = saving(*plan.pilot, seconds_a_ray, build_seconds, at.threads);
+  plan.measured_saving = saving(pilot, seconds_a_ray, build_seconds, at.threads);
   if (bytes > at.memory_left) {
     plan.build = false;
     plan.reason = "it took more memory than the scene allows";
-  } else if (seconds_a_ray >= plan.pilot->seconds) {
+  } else if (seconds_a_ray >= pilot.seconds) {
     plan.build = false;
     plan.reason = "once built, the pilot's rays were no faster";
   }

@@ -96,6 +96,7 @@ std::vector<GridPlan> add_grids(LightGrids& grids, const World& world, const Sce
   const std::vector<PilotLight> lights = lights_with_bundles(world);
   const std::vector<PilotRays> pilots = pilot_rays(world, settings, grids, lights);
   std::vector<GridPlan> plans;
+  plans.reserve(lights.size());
   for (std::size_t i = 0; i < lights.size(); ++i)
     plans.push_back(plan_grid(lights[i].light, lights[i].rays, measured(grids, pilots[i]), at));
   std::vector<std::size_t> order(lights.size());
@@ -106,7 +107,7 @@ std::vector<GridPlan> add_grids(LightGrids& grids, const World& world, const Sce
     GridPlan& plan = plans[i];
     if (!plan.build && !all) continue;
     at.memory_left = memory_left(grids, settings.acceleration);
-    plan = plan_grid(plan.bundle, lights[i].rays, *plan.pilot, at);
+    plan = plan_grid(plan.bundle, lights[i].rays, plan.pilot.value_or(GridPilot{}), at);
     if (all) ask_for(plan, plan.predicted_bytes, at);
     if (!plan.build) continue;
     const std::uint64_t before = grids.memory().total();

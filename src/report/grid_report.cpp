@@ -92,8 +92,7 @@ std::string predicted_and_measured(double predicted, const std::optional<double>
   return text;
 }
 
-std::string pilot_text(const GridPlan& plan) {
-  const GridPilot& pilot = *plan.pilot;
+std::string pilot_text(const GridPlan& plan, const GridPilot& pilot) {
   return line("rays expected", fmt::format("{:.0f}", pilot.expected_rays)) +
          line("rays of the pilot", fmt::format("{}, of which {:.1f} % are occluded", pilot.rays,
                                                100 * pilot.occluded_share)) +
@@ -119,7 +118,7 @@ std::string grid_text(const GridReport& grid) {
   std::string text =
       fmt::format("\nGrid of light {}: {}\n", grid.light, plan.build ? "built" : "not built");
   text += line("reason", std::string(plan.reason));
-  if (traced_pilot(plan)) text += pilot_text(plan);
+  if (const auto pilot = traced_pilot(plan)) text += pilot_text(plan, *pilot);
   if (grid.lists) text += lists_text(*grid.lists);
   if (grid.bytes) text += line("memory", format_bytes(*grid.bytes));
   if (grid.build_seconds) text += line("build", seconds(*grid.build_seconds));
