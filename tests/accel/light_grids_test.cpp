@@ -25,25 +25,6 @@ Soup with_room(Soup soup, float size) {
   return soup;
 }
 
-// A point of a triangle: anywhere, on an edge, or a vertex.
-Vec3 point_on(const Triangle& t, Random& random) {
-  float u = random.uniform(0, 1), v = random.uniform(0, 1) * (1 - u);
-  switch (random.below(4)) {
-    case 0:
-      v = 0;
-      break;
-    case 1:
-      u = 1 - v;
-      break;
-    case 2:
-      u = v = 0;
-      break;
-    default:
-      break;
-  }
-  return (1 - u - v) * t.a + u * t.b + v * t.c;
-}
-
 Ray to_light(const PointBundle& light, const Vec3& from, Random& random) {
   const float t_max = random.below(4) == 0 ? random.uniform(0, 1) : 1 - 0x1p-20F;
   return {from, t_max, light.eye - from, bundle};
@@ -53,7 +34,8 @@ Ray to_light(const ParallelBundle& light, const Vec3& from, Random& random) {
   if (light.tangent > 0) {
     toward += light.tangent * random.in_box({Vec3{-1}, Vec3{1}});
     // Across an axis of the world, at times, and of any length.
-    if (light.tangent >= 0.1F && random.below(8) == 0) toward[static_cast<int>(random.below(3))] = 0;
+    if (light.tangent >= 0.1F && random.below(8) == 0)
+      toward[static_cast<int>(random.below(3))] = 0;
     toward *= random.uniform(0.5F, 2);
   }
   return {from, random.below(4) == 0 ? random.uniform(0, 3) : infinity, toward, bundle};
@@ -188,7 +170,8 @@ TEST_CASE("A grid of a light on a surface, an edge or a vertex answers like brut
       setup.check(PointBundle{point_on(t, random)}, 2000, round);
     }
     for (const Vec3& toward : {Vec3{0, 1, 0}, Vec3{1, 0, 0}, Vec3{0, 0, -1}}) {
-      for (const float tangent : {0.0F, 0.005F}) setup.check(ParallelBundle{toward, tangent}, 2000, 9);
+      for (const float tangent : {0.0F, 0.005F})
+        setup.check(ParallelBundle{toward, tangent}, 2000, 9);
     }
     // In the plane of a flat grid.
     setup.check(PointBundle{{1.5F, 0, 0.25F}}, 2000, 10);
