@@ -10,6 +10,18 @@ namespace pah {
 
 namespace {
 
+GridLists lists_of(const LightGrid& grid) {
+  GridLists lists;
+  lists.cells = grid.cells.size();
+  for (const GridCell& cell : grid.cells) {
+    if (cell.count == GridCell::unknown) continue;
+    lists.empty_cells += cell.count == 0 ? 1 : 0;
+    lists.entries += cell.count;
+    lists.longest_list = std::max<std::uint64_t>(lists.longest_list, cell.count);
+  }
+  return lists;
+}
+
 class LightGridsOverBvh final : public LightGrids {
  public:
   explicit LightGridsOverBvh(const Triangles& triangles) {
@@ -21,11 +33,13 @@ class LightGridsOverBvh final : public LightGrids {
   void add(const LightBundle& bundle) override {
     const Clock::time_point start = Clock::now();
     auto grid = std::make_unique<LightGrid>(bvh_, bundle.rays);
-    const LightGridReport report{bundle.bundle, grid->memory_bytes(), seconds_since(start)};
+    const LightGridReport report{bundle.bundle, grid->memory_bytes(), seconds_since(start),
+                                 lists_of(*grid)};
     grids_.insert(place_of(bundle.bundle), {report, std::move(grid)});
   }
   void remove(std::uint32_t bundle) override {
     std::erase_if(grids_, [=](const BundleGrid& grid) { return grid.report.bundle == bundle; });
+    grids_.shrink_to_fit();
   }
 
   void closest_hit(std::span<const Ray> rays, std::span<Hit> hits,

@@ -33,6 +33,7 @@ std::vector<GridReport> report_grids(const Acceleration& acceleration, const Wor
     if (grid != built.end()) {
       report.build_seconds = grid->build_seconds;
       report.bytes = grid->bytes;
+      report.lists = grid->lists;
     }
     reports.push_back(std::move(report));
   }

@@ -13,14 +13,6 @@
 
 namespace pah {
 
-// The cells of a grid, each with its list of blocks of triangles.
-struct GridLists {
-  std::uint64_t cells = 0;
-  std::uint64_t empty_cells = 0;
-  std::uint64_t entries = 0;  // of all lists
-  std::uint64_t longest_list = 0;
-};
-
 // The grid of a light that shadow rays share a point or a direction of.
 struct GridReport {
   std::string light;

@@ -25,25 +25,6 @@ Soup with_room(Soup soup, float size) {
   return soup;
 }
 
-// A point of a triangle: anywhere, on an edge, or a vertex.
-Vec3 point_on(const Triangle& t, Random& random) {
-  float u = random.uniform(0, 1), v = random.uniform(0, 1) * (1 - u);
-  switch (random.below(4)) {
-    case 0:
-      v = 0;
-      break;
-    case 1:
-      u = 1 - v;
-      break;
-    case 2:
-      u = v = 0;
-      break;
-    default:
-      break;
-  }
-  return (1 - u - v) * t.a + u * t.b + v * t.c;
-}
-
 Ray to_light(const PointBundle& light, const Vec3& from, Random& random) {
   const float t_max = random.below(4) == 0 ? random.uniform(0, 1) : 1 - 0x1p-20F;
   return {from, t_max, light.eye - from, bundle};

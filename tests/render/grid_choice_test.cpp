@@ -62,10 +62,10 @@ TEST_CASE("a grid is built where it is expected to save more than it costs") {
   CHECK(plan.build);
   CHECK(plan.reason == "it is expected to save more than it costs");
   CHECK(plan.bundle == 5);
-  CHECK(plan.predicted_seconds == Approx(1e-6));
-  CHECK(plan.predicted_build_seconds == Approx(2));
-  CHECK(plan.predicted_bytes == 65'000);
-  CHECK(plan.predicted_saving == Approx(1e6 * 9e-6 - 2));
+  CHECK(plan.predicted_seconds == Approx(3.75e-6));
+  CHECK(plan.predicted_build_seconds == Approx(3));
+  CHECK(plan.predicted_bytes == 40'000);
+  CHECK(plan.predicted_saving == Approx(1e6 * 6.25e-6 - 3));
 }
 
 TEST_CASE("a grid is not built without rays") {
@@ -79,28 +79,29 @@ TEST_CASE("a grid is not built if its rays are cheap in the BVH") {
   cheap.cost = 3.9;
   CHECK(plan_grid(0, point, cheap, {}).reason == "its rays cost no more in the BVH");
   CHECK(!plan_grid(0, point, cheap, {}).build);
-  // Rays to a sun with a size are walks, and those of a point come from everywhere.
+  // Rays to a sun with a size cross cells, and those to a spot come from a part of the scene.
+  const ExactBundle spot = PointBundle{.sine = 0.5F};
   const ExactBundle sharp = ParallelBundle{}, soft = ParallelBundle{.tangent = 0.01F};
   const GridCircumstances at{.bvh_build_seconds = 1};
   CHECK(plan_grid(0, soft, pilot, at).predicted_seconds >
         plan_grid(0, sharp, pilot, at).predicted_seconds);
   CHECK(plan_grid(0, point, pilot, at).predicted_build_seconds >
-        plan_grid(0, sharp, pilot, at).predicted_build_seconds);
+        plan_grid(0, spot, pilot, at).predicted_build_seconds);
 }
 
 TEST_CASE("a grid is not built for few rays, of which threads make fewer") {
   const std::string_view too_few = "so few rays are expected that it would cost more than it saves";
   GridPilot few = pilot;
-  few.expected_rays = 2.0e5;
+  few.expected_rays = 3.0e5;
   CHECK(plan_grid(0, point, few, {.bvh_build_seconds = 2}).reason == too_few);
   CHECK(!plan_grid(0, point, few, {.bvh_build_seconds = 2}).build);
   CHECK(plan_grid(0, point, few, {.bvh_build_seconds = 1}).build);
-  CHECK(plan_grid(0, point, pilot, {.bvh_build_seconds = 2, .threads = 4}).build);
-  CHECK(plan_grid(0, point, pilot, {.bvh_build_seconds = 2, .threads = 5}).reason == too_few);
+  CHECK(plan_grid(0, point, pilot, {.bvh_build_seconds = 2, .threads = 2}).build);
+  CHECK(plan_grid(0, point, pilot, {.bvh_build_seconds = 2, .threads = 3}).reason == too_few);
 }
 
 TEST_CASE("a grid is not built beyond the memory that is left") {
-  GridCircumstances at{.triangles = 1000, .memory_left = 65'000};
+  GridCircumstances at{.triangles = 1000, .memory_left = 40'000};
   CHECK(plan_grid(0, point, pilot, at).build);
   --at.memory_left;
   CHECK(!plan_grid(0, point, pilot, at).build);
@@ -174,7 +175,7 @@ TEST_CASE("only lights whose rays share a point or almost a direction have plans
 TEST_CASE("no grid is built where memory suffices for the BVH only") {
   Scene scene = lit_ball();
   const World world = make_world(scene);
-  for (const std::uint64_t more : {std::uint64_t{0}, 64 * world.triangles().size()}) {
+  for (const std::uint64_t more : {std::uint64_t{0}, 39 * world.triangles().size()}) {
     scene.acceleration.memory = bytes_of_bvh(world) + more;
     const Acceleration acceleration = make_acceleration(world, scene);
     CHECK(acceleration.name == "bvh");

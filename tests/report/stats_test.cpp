@@ -88,7 +88,7 @@ TEST_CASE("of a grid that was planned only, what was measured is not known") {
 }
 
 TEST_CASE("of a grid that was built everything is known") {
-  GridPlan plan = plan_grid(0, PointBundle{}, pilot, {.triangles = 9, .bvh_build_seconds = 1});
+  GridPlan plan = plan_grid(0, PointBundle{}, pilot, {.triangles = 9, .bvh_build_seconds = 0.1});
   measure_grid(plan, 5e-7, 0.5, 900, {});
   const GridReport grid{.light = "sun",
                         .plan = plan,

@@ -80,17 +80,17 @@ class Liar final : public Accelerator {
 TEST_CASE("Rates have a row a repetition, and accelerators of ours answer alike") {
   StudyResults results;
   results.rates = measure_rates({small_scene(true)}, quick());
-  const std::size_t accelerators = has_embree() ? 3 : 2;
+  const std::size_t for_nearest = has_embree() ? 4 : 3;
+  const std::size_t for_any = has_embree() ? 5 : 3;
   const std::size_t thread_counts = parallel_threads() > 1 ? 2 : 1;
-  const std::size_t kinds = 4;
   const std::size_t repetitions = 3;
-  CHECK(results.rates.size() == accelerators * thread_counts * kinds * repetitions);
+  CHECK(results.rates.size() == (2 * for_nearest + 3 * for_any) * thread_counts * repetitions);
   for (const RateRow& row : results.rates) {
     CHECK(row.triangles == 302);
     CHECK(row.rays_per_second > 0);
     CHECK(row.batch > 1);
     CHECK(row.bytes > 0);
-    if (row.accelerator == "embree") {
+    if (row.accelerator.starts_with("embree")) {
       CHECK(!counts(row));
     } else {
       CHECK(counts(row));
@@ -100,8 +100,9 @@ TEST_CASE("Rates have a row a repetition, and accelerators of ours answer alike"
   // By turns.
   CHECK(results.rates[0].accelerator == "bvh");
   CHECK(results.rates[1].accelerator == "local");
-  CHECK(results.rates[accelerators].accelerator == "bvh");
-  CHECK(results.rates[accelerators].repetition == 2);
+  CHECK(results.rates[2].accelerator == "light");
+  CHECK(results.rates[for_nearest].accelerator == "bvh");
+  CHECK(results.rates[for_nearest].repetition == 2);
 
   const std::vector<std::string> lines = lines_of(rays_csv(results));
   REQUIRE(lines.size() == 1 + results.rates.size());
@@ -117,7 +118,10 @@ TEST_CASE("Rates have a row a repetition, and accelerators of ours answer alike"
   const std::string report = study_markdown(results, false);
   CHECK(report.find("## Rays a second") != std::string::npos);
   CHECK(report.find("| a \"scene\" | shadow any |") != std::string::npos);
+  CHECK(report.find("| a \"scene\" | shadow to a point or sun |") != std::string::npos);
   CHECK(report.find("local / bvh") != std::string::npos);
+  CHECK(report.find("light / bvh") != std::string::npos);
+  CHECK((report.find("light / embree16") != std::string::npos) == has_embree());
   CHECK(report.find("**geometric mean of all**") != std::string::npos);
   CHECK(report.find("nan") == std::string::npos);
 }
@@ -125,6 +129,29 @@ TEST_CASE("Rates have a row a repetition, and accelerators of ours answer alike"
 TEST_CASE("There is no rate of local BVHs where no area is built") {
   const std::vector<RateRow> rows = measure_rates({small_scene(false)}, quick());
   CHECK(std::ranges::find(rows, "local", &RateRow::accelerator) == rows.end());
+}
+
+TEST_CASE("There is no rate of grids where no light may have one") {
+  StudyScene scene = small_scene(false);
+  scene.world.lights = {{"sky", EnvironmentLight{}}};
+  const std::vector<RateRow> rows = measure_rates({scene}, quick());
+  CHECK(std::ranges::find(rows, "light", &RateRow::accelerator) == rows.end());
+  CHECK(std::ranges::find(rows, "shadow to a point or sun", &RateRow::ray_kind) == rows.end());
+  CHECK(std::ranges::find(rows, "shadow any", &RateRow::ray_kind) != rows.end());
+}
+
+TEST_CASE("Grids answer most shadow rays of a study to points and suns") {
+  const std::vector<RateRow> rows = measure_rates({small_scene(false)}, quick());
+  const auto row_of = [&](const std::string& kind, const std::string& accelerator) {
+    return *std::ranges::find_if(rows, [&](const RateRow& row) {
+      return row.ray_kind == kind && row.accelerator == accelerator;
+    });
+  };
+  // A cell looked up counts as a node.
+  CHECK(*row_of("shadow to a point or sun", "light").nodes_per_ray < 1.1);
+  CHECK(*row_of("shadow to a point or sun", "bvh").nodes_per_ray > 2);
+  CHECK(row_of("shadow any", "light").bytes > row_of("shadow any", "bvh").bytes);
+  CHECK(row_of("bounce any", "light").nodes_per_ray == row_of("bounce any", "bvh").nodes_per_ray);
 }
 
 TEST_CASE("Wrong answers are counted as mismatches") {
@@ -188,6 +215,24 @@ TEST_CASE("Rays are recorded by their kind, also of a lens") {
     CHECK(again.shadow.rays.size() == rays.shadow.rays.size());
     CHECK(again.shadow.rays.back().origin == rays.shadow.rays.back().origin);
   }
+}
+
+TEST_CASE("Shadow rays are recorded as grids take them: light by light, of exact bundles apart") {
+  StudyScene scene = small_scene(false);
+  scene.world.lights.insert(scene.world.lights.begin() + 1, {"sky", EnvironmentLight{}});
+  const auto bvh = make_global_bvh(scene.world.triangles());
+  const RecordedRays rays = rays_of(scene, *bvh);
+  std::array<std::size_t, 3> of_light{}, of_exact_light{};
+  for (std::size_t i = 0; i < rays.shadow.ends.size(); ++i)
+    CHECK(std::ranges::is_sorted(rays.shadow.batch(i), {}, &Ray::bundle));
+  for (const Ray& ray : rays.shadow.rays) ++of_light[ray.bundle];
+  for (const Ray& ray : rays.shadow_to_point_or_sun.rays) ++of_exact_light[ray.bundle];
+  for (std::size_t i = 0; i < rays.shadow_to_point_or_sun.ends.size(); ++i)
+    CHECK(std::ranges::is_sorted(rays.shadow_to_point_or_sun.batch(i), {}, &Ray::bundle));
+  CHECK(of_light[1] > 0);
+  CHECK(of_exact_light[0] > 0);
+  CHECK(of_exact_light[1] == 0);
+  CHECK(of_exact_light[2] > 0);
 }
 
 TEST_CASE("Ratios are medians of the repetitions' own") {

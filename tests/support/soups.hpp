@@ -38,6 +38,25 @@ class Random {
   std::mt19937 engine_;
 };
 
+// A point of a triangle: anywhere, on an edge, or a vertex.
+inline Vec3 point_on(const Triangle& t, Random& random) {
+  float u = random.uniform(0, 1), v = random.uniform(0, 1) * (1 - u);
+  switch (random.below(4)) {
+    case 0:
+      v = 0;
+      break;
+    case 1:
+      u = 1 - v;
+      break;
+    case 2:
+      u = v = 0;
+      break;
+    default:
+      break;
+  }
+  return (1 - u - v) * t.a + u * t.b + v * t.c;
+}
+
 inline Soup random_soup(std::uint32_t count, float size, const Vec3& center, std::uint32_t seed) {
   Soup soup;
   soup.name = "random soup";

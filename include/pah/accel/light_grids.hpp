@@ -13,10 +13,19 @@ struct LightBundle {
   ExactBundle rays;
 };
 
+// The cells of a grid, each with its list of blocks of triangles.
+struct GridLists {
+  std::uint64_t cells = 0;
+  std::uint64_t empty_cells = 0;
+  std::uint64_t entries = 0;  // of all lists
+  std::uint64_t longest_list = 0;
+};
+
 struct LightGridReport {
   std::uint32_t bundle = no_bundle;
   std::uint64_t bytes = 0;
   double build_seconds = 0;
+  GridLists lists;
 };
 
 class LightGrids : public Accelerator {

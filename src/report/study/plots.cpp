@@ -111,7 +111,7 @@ std::string rays_plot(const StudyResults& results) {
   for (const RateCase& of : cases_of(results.rates)) {
     if (of.threads != 1) continue;
     text += quoted(of.scene + ", " + of.ray_kind);
-    for (const char* accelerator : {"bvh", "local", "embree"}) {
+    for (const char* accelerator : rate_accelerators) {
       const RateSpread spread = spread_of(results.rates, of, accelerator);
       text += std::isnan(spread.median) ? " ? ? ?"
                                         : fmt::format(" {:.4g} {:.4g} {:.4g}", 1e-6 * spread.median,
@@ -119,10 +119,11 @@ std::string rays_plot(const StudyResults& results) {
     }
     text += "\n";
   }
-  return text +
-         "EOD\nset datafile missing '?'\n"
-         "plot $rates using 2:3:4:xtic(1) title 'bvh', $rates using 5:6:7 title 'local', "
-         "$rates using 8:9:10 title 'embree'\n";
+  text += "EOD\nset datafile missing '?'\nplot";
+  for (std::size_t i = 0; i < rate_accelerators.size(); ++i)
+    text += fmt::format("{} $rates using {}:{}:{}{} title '{}'", i > 0 ? "," : "", 3 * i + 2,
+                        3 * i + 3, 3 * i + 4, i > 0 ? "" : ":xtic(1)", rate_accelerators[i]);
+  return text + "\n";
 }
 
 // Runs `gnuplot script` in the folder, silently.

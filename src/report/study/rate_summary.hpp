@@ -1,9 +1,15 @@
 // Medians over the repetitions of a measurement.
 #pragma once
 
+#include <array>
+
 #include "report/study/study.hpp"
 
 namespace pah {
+
+// In the order of columns.
+inline constexpr std::array<const char*, 5> rate_accelerators{"bvh", "local", "light", "embree",
+                                                              "embree16"};
 
 // The rays of one kind in one scene, asked by so many threads.
 struct RateCase {

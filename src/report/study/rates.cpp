@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <ctime>
+#include <pah/accel/light_grids.hpp>
 #include <pah/render/acceleration.hpp>
 
 #include "parallel/parallel_for.hpp"
@@ -23,11 +24,12 @@ struct Kind {
   RayBatches RecordedRays::*batches;
   RayQuery query;
 };
-constexpr std::array<Kind, 4> kinds{{
+constexpr std::array<Kind, 5> kinds{{
     {"camera nearest", &RecordedRays::camera, RayQuery::nearest},
     {"bounce nearest", &RecordedRays::bounce, RayQuery::nearest},
     {"bounce any", &RecordedRays::bounce, RayQuery::any},
     {"shadow any", &RecordedRays::shadow, RayQuery::any},
+    {"shadow to a point or sun", &RecordedRays::shadow_to_point_or_sun, RayQuery::any},
 }};
 
 // Seconds of asking all batches `passes` times. Batches are the tasks: a call takes one as it was
@@ -54,16 +56,25 @@ double time_of(const Accelerator& accelerator, RayQuery query, const RayBatches&
   return seconds_of(clock) - start;
 }
 
+using Asked = std::vector<const NamedAccelerator*>;
+
+Asked asked_for(RayQuery query, const std::vector<NamedAccelerator>& accelerators) {
+  Asked asked;
+  for (const NamedAccelerator& on : accelerators)
+    if (query == RayQuery::any || on.nearest) asked.push_back(&on);
+  return asked;
+}
+
 void measure_kind(const Kind& kind, const RayBatches& batches, unsigned threads, bool quick,
-                  const std::vector<NamedAccelerator>& accelerators,
-                  const std::vector<RateRow>& blank, std::vector<RateRow>& rows) {
+                  const Asked& accelerators, const std::vector<RateRow>& blank,
+                  std::vector<RateRow>& rows) {
   // Many short turns, so that what slows the machine for a while slows all accelerators.
   constexpr unsigned turns = 5;
   const double turn_seconds = (quick ? 0.02 : 0.05) / turns;
   const unsigned repetitions = quick ? 3 : 5;
   std::vector<std::size_t> passes;
-  for (const NamedAccelerator& on : accelerators) {
-    const double warm_up = time_of(*on.accelerator, kind.query, batches, 1, threads);
+  for (const NamedAccelerator* on : accelerators) {
+    const double warm_up = time_of(*on->accelerator, kind.query, batches, 1, threads);
     passes.push_back(static_cast<std::size_t>(
         std::clamp(std::ceil(turn_seconds / std::max(warm_up, 1e-9)), 1.0, 1e6)));
   }
@@ -71,7 +82,7 @@ void measure_kind(const Kind& kind, const RayBatches& batches, unsigned threads,
     std::vector<double> took(accelerators.size());
     for (unsigned turn = 0; turn < turns; ++turn)
       for (std::size_t i = 0; i < accelerators.size(); ++i)
-        took[i] += time_of(*accelerators[i].accelerator, kind.query, batches, passes[i], threads);
+        took[i] += time_of(*accelerators[i]->accelerator, kind.query, batches, passes[i], threads);
     for (std::size_t i = 0; i < accelerators.size(); ++i) {
       RateRow row = blank[i];
       row.threads = threads;
@@ -85,28 +96,26 @@ void measure_kind(const Kind& kind, const RayBatches& batches, unsigned threads,
 
 // What all repetitions have in common.
 std::vector<RateRow> blank_rows(const std::string& scene, std::uint64_t triangles, const Kind& kind,
-                                const RayBatches& batches,
-                                const std::vector<NamedAccelerator>& accelerators) {
+                                const RayBatches& batches, const Asked& accelerators) {
   const auto rays = static_cast<double>(batches.rays.size());
   std::vector<RateRow> rows;
   Answers expected;
-  for (const NamedAccelerator& on : accelerators) {
+  for (const NamedAccelerator* on : accelerators) {
     TraversalCounts counts;
-    const Answers answers = ask_all(*on.accelerator, kind.query, batches, &counts);
+    const Answers answers = ask_all(*on->accelerator, kind.query, batches, &counts);
     if (rows.empty()) expected = answers;
     RateRow row;
     row.scene = scene;
     row.triangles = triangles;
     row.ray_kind = kind.name;
-    row.accelerator = on.name;
+    row.accelerator = on->name;
     row.batch = rays / static_cast<double>(batches.ends.size());
-    if (on.counts) {
+    if (on->counts) {
       row.nodes_per_ray = static_cast<double>(counts.nodes) / rays;
       row.triangles_per_ray = static_cast<double>(counts.triangles) / rays;
     }
-    row.build_seconds = on.build_seconds;
-    const AcceleratorMemory memory = on.accelerator->memory();
-    row.bytes = memory.global_bvh + memory.local_bvhs + memory.light_grids + memory.top_level;
+    row.build_seconds = on->build_seconds;
+    row.bytes = on->accelerator->memory().total();
     row.mismatches = count_mismatches(kind.query, expected, answers);
     rows.push_back(row);
   }
@@ -126,13 +135,30 @@ bool builds_areas(const World& world, const Scene& settings) {
                              [](const SceneArea& area) { return plan(local_area(area)).build; });
 }
 
+std::vector<LightBundle> bundles_of(const World& world) {
+  std::vector<LightBundle> bundles;
+  for (std::size_t i = 0; i < world.lights.size(); ++i)
+    if (const auto rays = exact_bundle(world.lights[i]))
+      bundles.push_back({static_cast<std::uint32_t>(i), *rays});
+  return bundles;
+}
+
+void add_embree(std::vector<NamedAccelerator>& accelerators, const Triangles& triangles) {
+  add(accelerators, "embree", false, [&] { return make_embree(triangles); });
+  add(accelerators, "embree16", false,
+      [&] { return make_embree(triangles, EmbreeQuality::high, EmbreeRays::packets_of_16); });
+  accelerators.back().nearest = false;
+}
+
 std::vector<NamedAccelerator> accelerators_of(const World& world, const Scene& settings) {
   std::vector<NamedAccelerator> all;
   add(all, "bvh", true, [&] { return make_global_bvh(world.triangles()); });
   if (builds_areas(world, settings))
     add(all, "local", true,
         [&] { return make_acceleration(world, settings, "local").accelerator; });
-  if (has_embree()) add(all, "embree", false, [&] { return make_embree(world.triangles()); });
+  if (const std::vector<LightBundle> bundles = bundles_of(world); !bundles.empty())
+    add(all, "light", true, [&] { return make_light_grids(world.triangles(), bundles); });
+  if (has_embree()) add_embree(all, world.triangles());
   return all;
 }
 
@@ -145,10 +171,11 @@ std::vector<RateRow> measure_rates(const std::string& scene, std::uint64_t trian
   for (const Kind& kind : kinds) {
     const RayBatches& batches = rays.*kind.batches;
     if (batches.rays.empty()) continue;
-    const std::vector<RateRow> blank = blank_rows(scene, triangles, kind, batches, accelerators);
-    measure_kind(kind, batches, 1, quick, accelerators, blank, rows);
+    const Asked asked = asked_for(kind.query, accelerators);
+    const std::vector<RateRow> blank = blank_rows(scene, triangles, kind, batches, asked);
+    measure_kind(kind, batches, 1, quick, asked, blank, rows);
     if (parallel_threads() > 1)
-      measure_kind(kind, batches, parallel_threads(), quick, accelerators, blank, rows);
+      measure_kind(kind, batches, parallel_threads(), quick, asked, blank, rows);
   }
   return rows;
 }

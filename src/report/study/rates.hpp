@@ -20,11 +20,13 @@ struct NamedAccelerator {
   std::string name;
   std::unique_ptr<Accelerator> accelerator;
   double build_seconds = 0;
-  bool counts = true;  // nodes and triangles
+  bool counts = true;   // nodes and triangles
+  bool nearest = true;  // is also asked for nearest hits
 };
 
-// For each of the scenes, by turns: bvh, local where areas are built, and embree where it is there.
-// `progress` as of run_study.
+// For each of the scenes, by turns: bvh, local where areas are built, light with a grid for every
+// light that may have one, embree where it is there, and embree16: the same asked for any hit by
+// packets of 16 rays. `progress` as of run_study.
 [[nodiscard]] std::vector<RateRow> measure_rates(
     const std::vector<StudyScene>& scenes, const StudyConfig& config,
     const std::function<void(double, const std::string&)>& progress = {});

@@ -24,14 +24,16 @@ bool has(const std::vector<RateRow>& rows, const char* accelerator) {
 
 std::vector<const char*> accelerators_of(const std::vector<RateRow>& rows) {
   std::vector<const char*> names;
-  for (const char* name : {"bvh", "local", "embree"})
+  for (const char* name : rate_accelerators)
     if (has(rows, name)) names.push_back(name);
   return names;
 }
 
 std::vector<Comparison> comparisons_of(const std::vector<RateRow>& rows) {
   std::vector<Comparison> all;
-  for (const Comparison comparison : {Comparison{"bvh", "embree"}, Comparison{"local", "bvh"}})
+  for (const Comparison comparison :
+       {Comparison{"bvh", "embree"}, Comparison{"bvh", "embree16"}, Comparison{"local", "bvh"},
+        Comparison{"light", "bvh"}, Comparison{"light", "embree16"}})
     if (has(rows, comparison.accelerator) && has(rows, comparison.base)) all.push_back(comparison);
   return all;
 }
@@ -121,6 +123,8 @@ std::string rates_markdown(const StudyResults& results, bool with_plots) {
       "## Rays a second\n\n"
       "Of the rays that a render of each scene asks in some tiles of its picture, in its batches:\n"
       "about {} thousand of a kind or less. A mesh stands on a floor, under a bulb and a sun.\n"
+      "Shadow rays to a point or sun are those to lights that may have a grid; light has a grid\n"
+      "for each of them. embree16 is Embree asked for any hit by packets of 16 rays.\n"
       "Millions a second: the median of {} repetitions, in which accelerators take turns\n"
       "(least-most); ratios are medians of the repetitions' own. Rows: rays.csv. Measured\n"
       "with {}{}{}.\n\n",

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numeric>
 #include <pah/render/session.hpp>
 #include <random>
@@ -77,6 +78,20 @@ RayBatches thinned(const RayBatches& all, std::uint64_t most, std::uint64_t seed
   return some;
 }
 
+// What is left of each batch.
+RayBatches to_exact_bundles(const RayBatches& shadow, const World& world) {
+  std::vector<std::uint8_t> exact;
+  for (const Light& light : world.lights) exact.push_back(exact_bundle(light) ? 1 : 0);
+  RayBatches some;
+  for (std::size_t i = 0; i < shadow.ends.size(); ++i) {
+    std::vector<Ray> batch;
+    std::ranges::copy_if(shadow.batch(i), std::back_inserter(batch),
+                         [&](const Ray& ray) { return exact[ray.bundle] != 0; });
+    some.add(batch);
+  }
+  return some;
+}
+
 FilmSettings picture_of(const FilmSettings& film) {
   FilmSettings picture = film;
   picture.crop.reset();
@@ -125,7 +140,8 @@ RecordedRays record_rays(const World& world, const Accelerator& accelerator,
   RenderSession session(world, recorder, picture_of(film), render, {.threads = 1});
   const std::vector<std::size_t> tiles = some_tiles(session.tiles(), seed);
   session.render_pass(tiles, 0, samples_for(session.tiles(), tiles, most));
-  for (RayBatches* kind : {&rays.camera, &rays.bounce, &rays.shadow})
+  rays.shadow_to_point_or_sun = to_exact_bundles(rays.shadow, world);
+  for (RayBatches* kind : {&rays.camera, &rays.bounce, &rays.shadow, &rays.shadow_to_point_or_sun})
     *kind = thinned(*kind, most, seed);
   return rays;
 }
