@@ -57,7 +57,7 @@ GridPlan plan_grid(std::uint32_t bundle, const ExactBundle& rays, const GridPilo
     plan.reason = "it would take more memory than the scene allows";
   } else if (plan.predicted_seconds >= pilot.seconds) {
     plan.reason = "its rays cost no more in the BVH";
-  } else if (plan.predicted_saving <= 0) {
+  } else if (plan.predicted_saving <= plan.predicted_build_seconds) {  // predictions being rough
     plan.reason = "so few rays are expected that it would cost more than it saves";
   } else {
     plan.build = true;

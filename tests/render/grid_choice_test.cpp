@@ -95,9 +95,9 @@ TEST_CASE("a grid is not built for few rays, of which threads make fewer") {
   few.expected_rays = 3.0e5;
   CHECK(plan_grid(0, point, few, {.bvh_build_seconds = 2}).reason == too_few);
   CHECK(!plan_grid(0, point, few, {.bvh_build_seconds = 2}).build);
-  CHECK(plan_grid(0, point, few, {.bvh_build_seconds = 1}).build);
-  CHECK(plan_grid(0, point, pilot, {.bvh_build_seconds = 2, .threads = 2}).build);
-  CHECK(plan_grid(0, point, pilot, {.bvh_build_seconds = 2, .threads = 3}).reason == too_few);
+  CHECK(plan_grid(0, point, few, {.bvh_build_seconds = 0.5}).build);
+  CHECK(plan_grid(0, point, pilot, {.bvh_build_seconds = 1, .threads = 2}).build);
+  CHECK(plan_grid(0, point, pilot, {.bvh_build_seconds = 1, .threads = 3}).reason == too_few);
 }
 
 TEST_CASE("a grid is not built beyond the memory that is left") {
@@ -109,7 +109,7 @@ TEST_CASE("a grid is not built beyond the memory that is left") {
 }
 
 TEST_CASE("a grid that was built stays if it is faster and fits") {
-  const GridCircumstances at{.bvh_build_seconds = 2, .threads = 2, .memory_left = 1000};
+  const GridCircumstances at{.bvh_build_seconds = 1, .threads = 2, .memory_left = 1000};
   const GridPlan planned = plan_grid(0, point, pilot, at);
   GridPlan plan = planned;
   measure_grid(plan, 2e-6, 3, 1000, at);
