@@ -76,6 +76,7 @@ class LightGridsOverBvh final : public LightGrids {
 
   [[nodiscard]] std::vector<LightGridReport> reports() const override {
     std::vector<LightGridReport> reports;
+    reports.reserve(grids_.size());
     for (const BundleGrid& grid : grids_) reports.push_back(grid.report);
     return reports;
   }

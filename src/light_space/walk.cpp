@@ -153,8 +153,7 @@ HWY_INLINE PlaceBytes overlapping(const Interval& u, const Interval& v) {
 class CellsCrossed {
  public:
   HWY_INLINE CellsCrossed(const LightGrid& grid, const Ways& ways, std::size_t i, Place* found)
-      : grid_(grid),
-        depth_(ways.depth[i]),
+      : depth_(ways.depth[i]),
         rise_(std::max(depth_ - first_tile(grid, ways, i).nearest, 0.0F)),
         found_(found) {
     const GridFace& face = grid.faces[0];
@@ -244,7 +243,6 @@ class CellsCrossed {
     if (!few) too_many_ = true;
   }
 
-  const LightGrid& grid_;
   float depth_, rise_;
   int along_ = 0;
   bool too_many_ = false;

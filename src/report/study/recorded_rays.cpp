@@ -80,8 +80,10 @@ RayBatches thinned(const RayBatches& all, std::uint64_t most, std::uint64_t seed
 
 // What is left of each batch.
 RayBatches to_exact_bundles(const RayBatches& shadow, const World& world) {
-  std::vector<std::uint8_t> exact;
-  for (const Light& light : world.lights) exact.push_back(exact_bundle(light) ? 1 : 0);
+  std::vector<std::uint8_t> exact(world.lights.size());
+  std::ranges::transform(world.lights, exact.begin(), [](const Light& light) -> std::uint8_t {
+    return exact_bundle(light) ? 1 : 0;
+  });
   RayBatches some;
   for (std::size_t i = 0; i < shadow.ends.size(); ++i) {
     std::vector<Ray> batch;
