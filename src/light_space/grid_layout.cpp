@@ -75,14 +75,20 @@ Seen seen(const CubeView& view, const DVec3& point) {
   return {static_cast<std::size_t>(face), DVec2(local) / local.z};
 }
 
-// The last one is outside of all.
-std::size_t tile_of(const LightGrid& grid, const Seen& point) {
+// A tile, the last one being outside of all, and which of the 8 x 8 parts of it.
+struct TilePart {
+  std::size_t tile;
+  unsigned part = 0;
+};
+TilePart tile_part_of(const LightGrid& grid, const Seen& point) {
   const GridFace& face = grid.faces[point.face];
   const DVec2 at = (point.at - DVec2(face.u, face.v)) * double{face.per_length};
   if (!(at.x >= 0 && at.y >= 0 && at.x < face.columns && at.y < face.rows))
-    return grid.tiles.size() - 1;
-  return face.first_tile + static_cast<std::size_t>(at.y) * face.columns +
-         static_cast<std::size_t>(at.x);
+    return {grid.tiles.size() - 1};
+  const DVec2 tile = glm::floor(at), within = 8.0 * (at - tile);
+  return {face.first_tile + static_cast<std::size_t>(tile.y) * face.columns +
+              static_cast<std::size_t>(tile.x),
+          8 * static_cast<unsigned>(within.y) + static_cast<unsigned>(within.x)};
 }
 
 void lay_out_tiles(LightGrid& grid, std::span<const Extent> extents, double tiles) {
@@ -110,18 +116,37 @@ void lay_out_tiles(LightGrid& grid, std::span<const Extent> extents, double tile
   grid.tiles.assign(count + std::size_t{1}, {0, 1});
 }
 
-// By where the middles of the blocks are.
+// What is in a tile, by where the middles of the blocks are.
+struct Content {
+  std::atomic<std::uint32_t> blocks = 0;
+  std::atomic<std::uint64_t> parts = 0;  // those that have some
+};
+
 template <typename View>
-std::vector<std::atomic<std::uint32_t>> blocks_in_tiles(const LightGrid& grid, const View& view) {
-  std::vector<std::atomic<std::uint32_t>> counts(grid.tiles.size());
+std::vector<Content> contents(const LightGrid& grid, const View& view) {
+  std::vector<Content> of(grid.tiles.size());
   parallel_for(grid.bvh->blocks.size(), 4096, [&](std::size_t i) {
     const TriangleBlock& block = grid.bvh->blocks[i];
     Aabb box = block.triangle(0).bounds();
     for (std::size_t lane = 1; lane < TriangleBlock::width; ++lane)
       box.extend(block.triangle(lane).bounds());
-    counts[tile_of(grid, seen(view, DVec3(box.center())))].fetch_add(1, std::memory_order_relaxed);
+    const TilePart at = tile_part_of(grid, seen(view, DVec3(box.center())));
+    of[at.tile].blocks.fetch_add(1, std::memory_order_relaxed);
+    of[at.tile].parts.fetch_or(1ULL << at.part, std::memory_order_relaxed);
   });
-  return counts;
+  return of;
+}
+
+// As many cells as there are triangles, but for the density, where there are any: a small thing in
+// a tile of its own has cells of its size. Few blocks tell nothing of where they are; empty cells
+// are to take no more memory than lists.
+double cells_wanted(const Content& content, double density) {
+  constexpr std::uint32_t many_blocks = 256;
+  constexpr int fewest_parts = 4;
+  const std::uint32_t blocks = content.blocks;
+  const double cells = density * static_cast<double>(TriangleBlock::width * blocks);
+  if (blocks < many_blocks) return cells;
+  return cells * 64 / std::max(std::popcount(content.parts.load()), fewest_parts);
 }
 
 // The power of two whose square is nearest, by its ratio.
@@ -137,12 +162,11 @@ void lay_out(LightGrid& grid, const View& view, double density, double error) {
     extents[static_cast<std::size_t>(face)] = extent_on(view, face, grid.origins, error);
   const auto triangles = static_cast<double>(TriangleBlock::width * grid.bvh->blocks.size());
   lay_out_tiles(grid, extents, density * triangles / triangles_per_tile);
-  const auto counts = blocks_in_tiles(grid, view);
+  const std::vector<Content> content = contents(grid, view);
   std::uint32_t cells = 0;
   for (std::size_t i = 0; i < grid.tiles.size(); ++i) {
     const bool outside = i + 1 == grid.tiles.size();
-    const double wanted = density * static_cast<double>(TriangleBlock::width * counts[i].load());
-    const std::uint32_t across = outside ? 1 : cells_across(wanted);
+    const std::uint32_t across = outside ? 1 : cells_across(cells_wanted(content[i], density));
     grid.tiles[i] = {cells, across};
     cells += across * across;
   }
