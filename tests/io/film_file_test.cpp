@@ -132,6 +132,21 @@ TEST_CASE("a film that is cut short or has more at its end is found") {
 
 TEST_CASE("sizes of a film that lie are found before anything is allocated") {
   const CurrentTemporaryFolder folder;
+  FilmOrigin origin = small_origin(true);
+  origin.film.width = 61;
+  origin.film.height = 53;
+  origin.film.crop.reset();
+  write_film("good.film", origin, {}, random_film(origin));
+  std::string bytes = bytes_of("good.film");
+  for (std::size_t at = 0; at < bytes.size(); at += 8)
+    for (const char side : {61, 53})
+      if (bytes.substr(at, 8) == side + std::string(7, '\0'))
+        bytes.replace(at, 8, std::string("\0\0\1\0\0\0\0\0", 8));
+  CHECK(contains(error_of(bytes), "is cut short: it has "));
+}
+
+TEST_CASE("a number of a film that lies is found") {
+  const CurrentTemporaryFolder folder;
   const std::string good = film_bytes(false);
   for (std::size_t at = 0; at + 8 <= good.size(); at += 8)
     for (const std::uint64_t lie :
