@@ -109,6 +109,15 @@ void add_render_options(CLI::App& app, RenderArguments& arguments) {
                  "Stop after so many seconds in all, with the samples\nthat are finished")
       ->check(finite_number(0))
       ->type_name("SECONDS");
+  app.add_option("--checkpoint", arguments.checkpoint,
+                 "Keep what is rendered so far in FILE.film, written\n"
+                 "every so many seconds; removed when the picture is\n"
+                 "there")
+      ->check(finite_number(0))
+      ->type_name("SECONDS");
+  app.add_flag("--resume", arguments.resume,
+               "Go on from FILE.film if it is there; the picture is\n"
+               "the same to the last bit");
   app.add_option("--exposure", arguments.exposure, "In stops; for .png and .jpg")
       ->check(finite_number(-std::numeric_limits<double>::infinity()))
       ->type_name("X");

@@ -15,7 +15,9 @@
 #include <pah/render/acceleration.hpp>
 #include <pah/render/render.hpp>
 #include <pah/scene/world.hpp>
+#include <utility>
 
+#include "cli/checkpoint.hpp"
 #include "cli/console.hpp"
 #include "cli/film_size.hpp"
 #include "cli/interrupt.hpp"
@@ -146,7 +148,8 @@ void rethrow_failure(const std::shared_future<void>& task) {
 RenderResult render_with_progress(const World& world, const Accelerator& accelerator,
                                   const Scene& scene, const RenderArguments& arguments,
                                   double spent, const std::shared_future<void>& loading,
-                                  std::optional<SavingOnInterrupt>& saving) {
+                                  std::optional<SavingOnInterrupt>& saving, StartedFilm started,
+                                  Checkpoint& checkpoint) {
   RenderOptions options;
   options.threads = arguments.threads;
   // 0 would be none.
@@ -165,7 +168,10 @@ RenderResult render_with_progress(const World& world, const Accelerator& acceler
     else if (!arguments.quiet)
       say(heartbeat.line(progress));
   };
-  return render(world, accelerator, scene.film, scene.render, options);
+  options.on_pass = [&](const Film& film, const FilmSamples& samples) {
+    checkpoint.pass_done(film, samples);
+  };
+  return render(world, accelerator, scene.film, scene.render, options, std::move(started));
 }
 
 void write_picture(const fs::path& file, const RenderResult& result, const Scene& scene,
@@ -213,6 +219,9 @@ ExitCode run_render(const RenderArguments& arguments) {
   }
   leave_out_layers(scene.film, output, warnings);
   check_memory_for(scene.film);
+  Checkpoint checkpoint(output, {PAHRENDER_VERSION, loaded.hash, scene.film, scene.render},
+                        {arguments.checkpoint, arguments.resume, arguments.quiet}, warnings);
+  StartedFilm started = checkpoint.start(0);
   const World world = make_world(scene);
   warnings.add(world.warnings);
   if (warnings.failed()) return ExitCode::scene_error;
@@ -233,8 +242,10 @@ ExitCode run_render(const RenderArguments& arguments) {
   if (warnings.failed()) return ExitCode::scene_error;
 
   std::optional<SavingOnInterrupt> saving;
-  const RenderResult result = render_with_progress(world, *acceleration.accelerator, scene,
-                                                   arguments, total.seconds(), loading, saving);
+  const RenderResult result =
+      render_with_progress(world, *acceleration.accelerator, scene, arguments, total.seconds(),
+                           loading, saving, std::move(started), checkpoint);
+  if (!result.complete) checkpoint.keep(result.film, result.held);
   const bool interrupted = stop_requested() && !result.complete;
   // Less than one sample for every pixel is better than nothing, but not than what there was.
   std::error_code ignored;
@@ -246,6 +257,7 @@ ExitCode run_render(const RenderArguments& arguments) {
     return ExitCode::interrupted;
   }
   write_picture(output, result, scene, loaded.hash, arguments);
+  if (result.complete) checkpoint.remove();
   warn_of_faults(result, scene.film.exposure, output, warnings);
   if (!arguments.quiet) say(summary_of(output, result, scene.render.samples, total.seconds()));
 

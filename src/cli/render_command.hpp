@@ -22,6 +22,8 @@ struct RenderArguments {
   std::optional<double> exposure;
   int threads = 0;                     // 0: all
   double time_limit = 0;               // seconds; 0: none
+  std::optional<double> checkpoint;    // seconds between writing what there is
+  bool resume = false;                 // go on from it
   std::string accelerator;             // empty: by the scene
   std::vector<std::string> overrides;  // key.path=value
   std::filesystem::path stats;         // empty: none

@@ -1,11 +1,14 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <iterator>
 #include <mutex>
 #include <numeric>
 #include <pah/render/render.hpp>
 #include <pah/render/session.hpp>
+#include <span>
 #include <utility>
+#include <vector>
 
 namespace pah {
 namespace {
@@ -62,31 +65,49 @@ int next_pass(int finished, int samples, double elapsed, double time_limit) {
   return count;
 }
 
+// What a pass that was stopped leaves to do.
+void leave_behind(std::span<const std::size_t> tiles, std::span<const std::size_t> finished,
+                  int count, FilmSamples& held) {
+  std::vector<std::size_t> behind;
+  std::ranges::set_difference(tiles, finished, std::back_inserter(behind));
+  held.behind = std::move(behind);
+  held.ahead = count;
+}
+
 }  // namespace
 
 RenderResult render(const World& world, const Accelerator& accelerator, const FilmSettings& film,
-                    const RenderSettings& settings, const RenderOptions& options) {
+                    const RenderSettings& settings, const RenderOptions& options,
+                    StartedFilm started) {
   const Clock::time_point start = Clock::now();
   RenderSession session(world, accelerator, film, settings,
                         {options.threads, options.count_traversal});
+  if (!started.film.pixels.empty()) session.restore(std::move(started.film));
   const std::span<const PixelRect> tiles = session.tiles();
   std::vector<std::size_t> all(tiles.size());
   std::iota(all.begin(), all.end(), std::size_t{0});
-  Reporter reporter(
-      options, start,
-      static_cast<double>(session.film().pixels.size()) * static_cast<double>(settings.samples));
+  const int first = started.samples.to;
+  Reporter reporter(options, start,
+                    static_cast<double>(session.film().pixels.size()) *
+                        static_cast<double>(settings.samples - first));
   const auto stopped = [&] { return options.stop != nullptr && options.stop->load(); };
 
   RenderResult result;
+  result.held = std::move(started.samples);
+  FilmSamples& held = result.held;
+  result.samples = held.to - held.from;
   // A picture with holes would be of no use: every pixel gets one sample.
   const auto out_of_time = [&] {
     return options.time_limit > 0 && result.samples > 0 &&
            seconds_since(start) >= options.time_limit;
   };
   std::atomic<bool> stop_pass = false;
-  while (result.samples < settings.samples && !stopped()) {
-    const int count =
-        next_pass(result.samples, settings.samples, seconds_since(start), options.time_limit);
+  while (held.to < settings.samples && !stopped()) {
+    const bool goes_on = !held.behind.empty();
+    const std::span<const std::size_t> todo = goes_on ? held.behind : all;
+    const int count = goes_on ? held.ahead
+                              : next_pass(held.to - first, settings.samples - first,
+                                          seconds_since(start), options.time_limit);
     if (count == 0) break;
     const auto tile_done = [&](const FinishedTile& tile) {
       const PixelRect& rect = tiles[tile.index];
@@ -96,14 +117,19 @@ RenderResult render(const World& world, const Accelerator& accelerator, const Fi
       reporter.tile_done(samples, tile.rays, result.samples);
       if (stopped() || out_of_time()) stop_pass = true;
     };
-    const auto finished = session.render_pass(all, result.samples, count, {&stop_pass, tile_done});
-    if (finished.size() < all.size()) break;
+    const auto finished = session.render_pass(todo, held.to, count, {&stop_pass, tile_done});
+    if (finished.size() < todo.size()) {
+      if (!finished.empty()) leave_behind(todo, finished, count, held);
+      break;
+    }
+    held = {held.from, held.to + count, 0, {}};
     result.samples += count;
     reporter.pass_done(result.samples);
+    if (options.on_pass) options.on_pass(session.film(), held);
   }
   result.counts = session.counts();
   result.film = std::move(session).take_film();
-  result.complete = result.samples == settings.samples;
+  result.complete = held.to == settings.samples;
   result.seconds = seconds_since(start);
   return result;
 }

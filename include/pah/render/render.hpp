@@ -7,15 +7,22 @@
 #include <pah/accel/accelerator.hpp>
 #include <pah/render/counts.hpp>
 #include <pah/render/film.hpp>
+#include <pah/render/film_samples.hpp>
 #include <pah/scene/world.hpp>
 
 namespace pah {
 
 struct Progress {
-  double fraction = 0;  // of all samples, in [0, 1]
+  double fraction = 0;  // of all samples that were to be rendered, in [0, 1]
   double seconds = 0;   // since the render began
   std::uint64_t rays = 0;
   int samples_finished = 0;  // per pixel, by every pixel
+};
+
+// What there is already. A film without pixels: nothing, and `samples` tells where to begin.
+struct StartedFilm {
+  Film film;
+  FilmSamples samples;
 };
 
 struct RenderOptions {
@@ -24,20 +31,24 @@ struct RenderOptions {
   bool count_traversal = false;
   const std::atomic<bool>* stop = nullptr;           // set it to end early with what there is
   std::function<void(const Progress&)> on_progress;  // called from one thread at a time
+  // Called between passes, while nothing changes the film.
+  std::function<void(const Film&, const FilmSamples&)> on_pass;
 };
 
 struct RenderResult {
   Film film;
   RenderCounts counts;
   double seconds = 0;
-  int samples = 0;        // per pixel, finished by every pixel
+  int samples = 0;        // per pixel, held by every pixel
   bool complete = false;  // false if stopped or out of time
+  FilmSamples held;
 };
 
-// Path-traces the world. The same world, film, settings and accelerator answers give the same film
-// to the last bit, whatever the number of threads.
+// Path-traces the world: adds the samples up to settings.samples to what there is. The same world,
+// film, settings and accelerator answers give the same film to the last bit, whatever the number of
+// threads and however often it was stopped and started again.
 [[nodiscard]] RenderResult render(const World& world, const Accelerator& accelerator,
                                   const FilmSettings& film, const RenderSettings& settings,
-                                  const RenderOptions& options = {});
+                                  const RenderOptions& options = {}, StartedFilm started = {});
 
 }  // namespace pah
