@@ -22,6 +22,7 @@ struct RenderArguments {
   std::optional<double> exposure;
   int threads = 0;                     // 0: all
   double time_limit = 0;               // seconds; 0: none
+  std::optional<double> write_every;   // seconds; 0: after every pass
   std::string accelerator;             // empty: by the scene
   std::vector<std::string> overrides;  // key.path=value
   std::filesystem::path stats;         // empty: none

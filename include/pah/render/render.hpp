@@ -24,6 +24,11 @@ struct RenderOptions {
   bool count_traversal = false;
   const std::atomic<bool>* stop = nullptr;           // set it to end early with what there is
   std::function<void(const Progress&)> on_progress;  // called from one thread at a time
+  // Called between two passes over the picture, by the thread that called render(): every pixel of
+  // the film has samples_finished samples. Its time counts as the render's. What it throws ends the
+  // render and is thrown on.
+  std::function<void(const Film&, const Progress&)> on_pass;
+  double pass_seconds = 0;  // of a pass at most, as far as whole samples allow; 0: as costs least
 };
 
 struct RenderResult {
