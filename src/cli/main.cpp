@@ -118,6 +118,11 @@ void add_render_options(CLI::App& app, RenderArguments& arguments) {
   app.add_flag("--resume", arguments.resume,
                "Go on from FILE.film if it is there; the picture is\n"
                "the same to the last bit");
+  app.add_option("--write-every", arguments.write_every,
+                 "Write the picture so far every so many seconds, and\n"
+                 "once every pixel has a sample")
+      ->check(finite_number(0))
+      ->type_name("SECONDS");
   app.add_option("--exposure", arguments.exposure, "In stops; for .png and .jpg")
       ->check(finite_number(-std::numeric_limits<double>::infinity()))
       ->type_name("X");

@@ -58,7 +58,7 @@ void ProgressBar::show(const Progress& progress) {
   say("\r" + format_progress(progress, goal_, terminal_width() - 1) + "\x1b[K");
 }
 
-ProgressBar::~ProgressBar() { say("\r\x1b[K"); }
+void ProgressBar::wipe() { say("\r\x1b[K"); }
 
 std::string Heartbeat::line(const Progress& progress) {
   const double fraction = fraction_of(progress, goal_);

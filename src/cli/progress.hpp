@@ -21,11 +21,12 @@ struct RenderGoal {
 class ProgressBar {
  public:
   explicit ProgressBar(const RenderGoal& goal) : goal_(goal) {}
-  ~ProgressBar();  // wipes the line
+  ~ProgressBar() { wipe(); }
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;
 
   void show(const Progress& progress);
+  static void wipe();  // for something else to be said, until it is shown again
 
  private:
   RenderGoal goal_;

@@ -19,10 +19,12 @@
 
 #include "cli/checkpoint.hpp"
 #include "cli/console.hpp"
+#include "cli/early_pictures.hpp"
 #include "cli/film_size.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/memory.hpp"
 #include "cli/progress.hpp"
+#include "cli/stopwatch.hpp"
 #include "cli/summary.hpp"
 #include "cli/warnings.hpp"
 #include "io/extension.hpp"
@@ -35,17 +37,6 @@ namespace pah::cli {
 namespace {
 
 namespace fs = std::filesystem;
-
-class Stopwatch {
- public:
-  [[nodiscard]] double seconds() const {
-    return std::chrono::duration<double>(Clock::now() - start_).count();
-  }
-
- private:
-  using Clock = std::chrono::steady_clock;
-  Clock::time_point start_ = Clock::now();
-};
 
 // Extensions are matched as write_image matches them: whatever their case.
 bool has_image_extension(const fs::path& file) {
@@ -137,9 +128,28 @@ bool is_same_file(const fs::path& a, const fs::path& b) {
          fs::weakly_canonical(fs::absolute(b), error);
 }
 
+bool is_done(const std::shared_future<void>& task) {
+  return task.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
+}
+
 // Once the task has failed, throws what it threw.
 void rethrow_failure(const std::shared_future<void>& task) {
-  if (task.wait_for(std::chrono::seconds(0)) == std::future_status::ready) task.get();
+  if (is_done(task)) task.get();
+}
+
+void write_picture(const fs::path& file, const Film& film, int samples, double seconds,
+                   const Scene& scene, const std::string& hash, const RenderArguments& arguments) {
+  WriteOptions options;
+  options.exposure = scene.film.exposure;
+  // Unless asked to, comparisons of pictures are not to meet the rounding to half floats.
+  options.full_float = !arguments.half;
+  options.png_bits = arguments.png_bits.value_or(options.png_bits);
+  options.metadata = {{"pahrender:version", PAHRENDER_VERSION},
+                      {"pahrender:scene_hash", hash},
+                      {"pahrender:samples", std::to_string(samples)},
+                      {"pahrender:seed", std::to_string(scene.render.seed)},
+                      {"pahrender:seconds", fmt::format("{:.3f}", seconds)}};
+  write_image(file, layers_of(film, scene.film), options);
 }
 
 // `spent` seconds of the time limit are gone. Ends early if `loading`, of what will write the
@@ -148,7 +158,8 @@ void rethrow_failure(const std::shared_future<void>& task) {
 RenderResult render_with_progress(const World& world, const Accelerator& accelerator,
                                   const Scene& scene, const RenderArguments& arguments,
                                   double spent, const std::shared_future<void>& loading,
-                                  std::optional<SavingOnInterrupt>& saving, StartedFilm started,
+                                  std::optional<SavingOnInterrupt>& saving,
+                                  std::optional<EarlyPictures>& early, StartedFilm started,
                                   Checkpoint& checkpoint) {
   RenderOptions options;
   options.threads = arguments.threads;
@@ -157,6 +168,13 @@ RenderResult render_with_progress(const World& world, const Accelerator& acceler
   options.count_traversal = !arguments.stats.empty();
   options.stop = &stop_requested();
   const RenderGoal goal{scene.render.samples, options.time_limit};
+  // The library may come too late for the first passes, which nobody waits for: they are short.
+  options.on_pass = [&](const Film& film, const FilmSamples& samples, const Progress& progress) {
+    const bool last = samples.to == scene.render.samples;
+    if (early && !last && is_done(loading)) early->show(film, progress);
+    checkpoint.pass_done(film, samples);
+  };
+  if (early) options.pass_seconds = *arguments.write_every / 2;
   std::optional<ProgressBar> bar;
   if (!arguments.quiet && can_redraw()) bar.emplace(goal);
   Heartbeat heartbeat(goal);
@@ -168,25 +186,7 @@ RenderResult render_with_progress(const World& world, const Accelerator& acceler
     else if (!arguments.quiet)
       say(heartbeat.line(progress));
   };
-  options.on_pass = [&](const Film& film, const FilmSamples& samples) {
-    checkpoint.pass_done(film, samples);
-  };
   return render(world, accelerator, scene.film, scene.render, options, std::move(started));
-}
-
-void write_picture(const fs::path& file, const RenderResult& result, const Scene& scene,
-                   const std::string& hash, const RenderArguments& arguments) {
-  WriteOptions options;
-  options.exposure = scene.film.exposure;
-  // Unless asked to, comparisons of pictures are not to meet the rounding to half floats.
-  options.full_float = !arguments.half;
-  options.png_bits = arguments.png_bits.value_or(options.png_bits);
-  options.metadata = {{"pahrender:version", PAHRENDER_VERSION},
-                      {"pahrender:scene_hash", hash},
-                      {"pahrender:samples", std::to_string(result.samples)},
-                      {"pahrender:seed", std::to_string(scene.render.seed)},
-                      {"pahrender:seconds", fmt::format("{:.3f}", result.seconds)}};
-  write_image(file, layers_of(result.film, scene.film), options);
 }
 
 }  // namespace
@@ -241,10 +241,23 @@ ExitCode run_render(const RenderArguments& arguments) {
   warnings.add(warnings_of(acceleration, world, scene));
   if (warnings.failed()) return ExitCode::scene_error;
 
+  std::optional<EarlyPictures> early;
+  // What was written to a device cannot be replaced.
+  if (arguments.write_every && !is_device(output)) {
+    const auto write = [&](const Film& film, const Progress& progress) {
+      write_picture(output, film, progress.samples_finished, progress.seconds, scene, loaded.hash,
+                    arguments);
+    };
+    const auto warn = [&](const std::string& warning) {
+      if (!arguments.quiet && can_redraw()) ProgressBar::wipe();
+      warnings.add(warning);
+    };
+    early.emplace(*arguments.write_every, write, warn);
+  }
   std::optional<SavingOnInterrupt> saving;
   const RenderResult result =
       render_with_progress(world, *acceleration.accelerator, scene, arguments, total.seconds(),
-                           loading, saving, std::move(started), checkpoint);
+                           loading, saving, early, std::move(started), checkpoint);
   if (!result.complete) checkpoint.keep(result.film, result.held);
   const bool interrupted = stop_requested() && !result.complete;
   // Less than one sample for every pixel is better than nothing, but not than what there was.
@@ -256,7 +269,7 @@ ExitCode run_render(const RenderArguments& arguments) {
                  : "interrupted before there was anything to save\n");
     return ExitCode::interrupted;
   }
-  write_picture(output, result, scene, loaded.hash, arguments);
+  write_picture(output, result.film, result.samples, result.seconds, scene, loaded.hash, arguments);
   if (result.complete) checkpoint.remove();
   warn_of_faults(result, scene.film.exposure, output, warnings);
   if (!arguments.quiet) say(summary_of(output, result, scene.render.samples, total.seconds()));

@@ -24,6 +24,7 @@ struct RenderArguments {
   double time_limit = 0;               // seconds; 0: none
   std::optional<double> checkpoint;    // seconds between writing what there is
   bool resume = false;                 // go on from it
+  std::optional<double> write_every;   // seconds; 0: after every pass
   std::string accelerator;             // empty: by the scene
   std::vector<std::string> overrides;  // key.path=value
   std::filesystem::path stats;         // empty: none

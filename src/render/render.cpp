@@ -40,11 +40,16 @@ class Reporter {
     if (options_.on_progress) report(seconds_since(start_), finished);
   }
 
- private:
-  void report(double now, int finished) {
-    options_.on_progress(
-        {std::min(1.0, static_cast<double>(samples_) / total_samples_), now, rays_, finished});
+  void between_passes(const Film& film, const FilmSamples& held) const {
+    if (options_.on_pass)
+      options_.on_pass(film, held, progress(seconds_since(start_), held.to - held.from));
   }
+
+ private:
+  [[nodiscard]] Progress progress(double now, int finished) const {
+    return {std::min(1.0, static_cast<double>(samples_) / total_samples_), now, rays_, finished};
+  }
+  void report(double now, int finished) { options_.on_progress(progress(now, finished)); }
 
   const RenderOptions& options_;
   Clock::time_point start_;
@@ -54,14 +59,24 @@ class Reporter {
   double last_ = 0;
 };
 
+// What a render has taken so far, in seconds: in all, and by its passes alone.
+struct Spent {
+  double total = 0, passes = 0;
+};
+
 // The samples of the next pass: few at first, so that a whole picture is there soon, then as many
-// as a batch holds; no more than the time left allows at the rate so far, perhaps none.
-int next_pass(int finished, int samples, double elapsed, double time_limit) {
+// as a batch holds; no more than a pass may take at the rate so far, nor than the time left allows,
+// perhaps none.
+int next_pass(int finished, int samples, const Spent& spent, const RenderOptions& options) {
   int count = std::min({std::max(1, finished), RenderSession::batch_samples, samples - finished});
-  if (time_limit > 0 && finished > 0) {
-    const double affordable = (time_limit - elapsed) / elapsed * finished;
-    count = static_cast<int>(std::clamp(affordable, 0.0, static_cast<double>(count)));
-  }
+  if (finished == 0) return count;
+  const auto limit_to = [&](double seconds, int least) {
+    const double affordable = seconds / spent.passes * finished;
+    count = static_cast<int>(
+        std::clamp(affordable, static_cast<double>(least), static_cast<double>(count)));
+  };
+  if (options.pass_seconds > 0) limit_to(options.pass_seconds, 1);
+  if (options.time_limit > 0) limit_to(options.time_limit - spent.total, 0);
   return count;
 }
 
@@ -102,13 +117,15 @@ RenderResult render(const World& world, const Accelerator& accelerator, const Fi
            seconds_since(start) >= options.time_limit;
   };
   std::atomic<bool> stop_pass = false;
+  double in_passes = 0;  // seconds
   while (held.to < settings.samples && !stopped()) {
     const bool goes_on = !held.behind.empty();
     const std::span<const std::size_t> todo = goes_on ? held.behind : all;
     const int count = goes_on ? held.ahead
                               : next_pass(held.to - first, settings.samples - first,
-                                          seconds_since(start), options.time_limit);
+                                          {seconds_since(start), in_passes}, options);
     if (count == 0) break;
+    const Clock::time_point pass_start = Clock::now();
     const auto tile_done = [&](const FinishedTile& tile) {
       const PixelRect& rect = tiles[tile.index];
       const auto samples = static_cast<std::uint64_t>(rect.width()) *
@@ -122,10 +139,11 @@ RenderResult render(const World& world, const Accelerator& accelerator, const Fi
       if (!finished.empty()) leave_behind(todo, finished, count, held);
       break;
     }
+    in_passes += seconds_since(pass_start);
     held = {held.from, held.to + count, 0, {}};
     result.samples += count;
     reporter.pass_done(result.samples);
-    if (options.on_pass) options.on_pass(session.film(), held);
+    reporter.between_passes(session.film(), held);
   }
   result.counts = session.counts();
   result.film = std::move(session).take_film();

@@ -31,8 +31,10 @@ struct RenderOptions {
   bool count_traversal = false;
   const std::atomic<bool>* stop = nullptr;           // set it to end early with what there is
   std::function<void(const Progress&)> on_progress;  // called from one thread at a time
-  // Called between passes, while nothing changes the film.
-  std::function<void(const Film&, const FilmSamples&)> on_pass;
+  // Called after a pass over the picture, by the thread that called render(), while nothing changes
+  // the film. Its time counts as the render's. What it throws ends the render and is thrown on.
+  std::function<void(const Film&, const FilmSamples&, const Progress&)> on_pass;
+  double pass_seconds = 0;  // of a pass at most, as far as whole samples allow; 0: as costs least
 };
 
 struct RenderResult {
