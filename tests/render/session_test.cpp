@@ -153,8 +153,8 @@ TEST_CASE("a render goes on from a film, some tiles of which are behind") {
   session.render_pass(all_tiles(session), 0, 2);
   session.render_pass(odd, 2, 2);
   const RenderResult result =
-      pah::render(prepared.world, *prepared.accelerator, prepared.scene.film,
-                  prepared.scene.render, {}, {std::move(session).take_film(), {0, 2, 2, even}});
+      pah::render(prepared.world, *prepared.accelerator, prepared.scene.film, prepared.scene.render,
+                  {}, {std::move(session).take_film(), {0, 2, 2, even}});
   CHECK(result.complete);
   CHECK(result.samples == 5);
   CHECK(result.held == FilmSamples{0, 5, 0, {}});
