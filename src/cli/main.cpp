@@ -20,6 +20,7 @@
 #include "cli/exit_code.hpp"
 #include "cli/inspect_command.hpp"
 #include "cli/interrupt.hpp"
+#include "cli/merge_command.hpp"
 #include "cli/render_command.hpp"
 #include "cli/study_command.hpp"
 #include "io/yaml/suggest.hpp"
@@ -42,6 +43,18 @@ std::optional<PixelRect> parse_crop(std::string_view text) {
   const auto [x0, x1, y0, y1] = bounds;
   if (at != end || x0 >= x1 || y0 >= y1) return std::nullopt;
   return PixelRect{x0, x1, y0, y1};
+}
+
+// "FROM:TO" of at least one sample.
+std::optional<SampleRange> parse_sample_range(std::string_view text) {
+  SampleRange range;
+  const char* const end = text.data() + text.size();
+  const auto from = std::from_chars(text.data(), end, range.from);
+  if (from.ec != std::errc{} || from.ptr == end || *from.ptr != ':') return std::nullopt;
+  const auto to = std::from_chars(from.ptr + 1, end, range.to);
+  if (to.ec != std::errc{} || to.ptr != end) return std::nullopt;
+  if (range.from < 0 || range.from >= range.to || range.to > 1 << 30) return std::nullopt;
+  return range;
 }
 
 CLI::Validator finite_number(double low) {
@@ -74,12 +87,26 @@ void add_render_options(CLI::App& app, RenderArguments& arguments) {
   app.add_option("SCENE", arguments.scene, "The scene to render, a YAML file")->type_name("");
   app.add_option("-o,--output", arguments.output,
                  "The picture: .png or .jpg (for screens), .exr, .hdr\n"
-                 "or .tif (linear). By default the scene's name with\n"
-                 ".png, in the current folder")
+                 "or .tif (linear), or .film (for merge). By default\n"
+                 "the scene's name with .png, in the current folder")
       ->type_name("FILE");
-  app.add_option("--spp", arguments.samples, "Samples per pixel")
-      ->check(whole_number(1, 1 << 30))
-      ->type_name("N");
+  CLI::Option* const spp = app.add_option("--spp", arguments.samples, "Samples per pixel")
+                               ->check(whole_number(1, 1 << 30))
+                               ->type_name("N");
+  app.add_option_function<std::string>(
+         "--samples",
+         [&arguments](const std::string& text) {
+           arguments.sample_range = parse_sample_range(text);
+           if (!arguments.sample_range)
+             throw CLI::ValidationError(
+                 "--samples", text +
+                                  " is not FROM:TO with 0 <= FROM < TO <= 2^30; for a number of "
+                                  "samples there is --spp");
+         },
+         "Render only the samples FROM <= i < TO of each pixel,\n"
+         "to a .film file for merge")
+      ->excludes(spp)
+      ->type_name("FROM:TO");
   app.add_option("--width", arguments.width,
                  "Of the picture, in pixels; without --height that\n"
                  "follows, as the scene's")
@@ -167,6 +194,23 @@ CLI::App* add_compare(CLI::App& app, CompareArguments& arguments) {
   return compare;
 }
 
+CLI::App* add_merge(CLI::App& app, MergeArguments& arguments) {
+  CLI::App* merge = app.add_subcommand(
+      "merge", "Add the samples of .film files of one picture, rendered by --samples");
+  merge->get_formatter()->column_width(25);
+  merge->add_option("PART", arguments.parts, ".film files, in any order")
+      ->required()
+      ->type_name("");
+  merge
+      ->add_option("-o,--output", arguments.output, "The picture, or a .film file to merge further")
+      ->required()
+      ->type_name("FILE");
+  merge->add_option("--exposure", arguments.exposure, "In stops; for .png and .jpg")
+      ->check(finite_number(-std::numeric_limits<double>::infinity()))
+      ->type_name("X");
+  return merge;
+}
+
 CLI::App* add_inspect(CLI::App& app, InspectArguments& arguments) {
   CLI::App* inspect = app.add_subcommand(
       "inspect",
@@ -245,7 +289,6 @@ std::string usage_hint(const CLI::App& app, int argc, char** argv) {
   for (int i = 1; i < argc; ++i) {
     const std::string_view word =
         std::string_view(argv[i]).substr(0, std::string_view(argv[i]).find('='));
-    if (word == "--samples") return "; did you mean '--spp'?";
     if (word == "render") return "; there is no command 'render': pahrender SCENE -o OUT";
     const bool known = std::find(options.begin(), options.end(), word) != options.end();
     if (word.starts_with("--") && !known) return suggestion(word, options);
@@ -264,10 +307,12 @@ ExitCode run(int argc, char** argv) {
   app.get_formatter()->column_width(25);
   RenderArguments render_arguments;
   CompareArguments compare_arguments;
+  MergeArguments merge_arguments;
   InspectArguments inspect_arguments;
   StudyArguments study_arguments;
   add_render_options(app, render_arguments);
   const CLI::App* compare = add_compare(app, compare_arguments);
+  const CLI::App* merge = add_merge(app, merge_arguments);
   const CLI::App* inspect = add_inspect(app, inspect_arguments);
   const CLI::App* study = add_study(app, study_arguments);
   try {
@@ -280,6 +325,10 @@ ExitCode run(int argc, char** argv) {
   if (compare->parsed()) {
     reject_render_options(app, *compare);
     return run_compare(compare_arguments);
+  }
+  if (merge->parsed()) {
+    reject_render_options(app, *merge);
+    return run_merge(merge_arguments);
   }
   if (inspect->parsed()) {
     reject_render_options(app, *inspect);

@@ -20,6 +20,7 @@
 #include "cli/checkpoint.hpp"
 #include "cli/console.hpp"
 #include "cli/early_pictures.hpp"
+#include "cli/film_picture.hpp"
 #include "cli/film_size.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/memory.hpp"
@@ -46,7 +47,8 @@ bool has_image_extension(const fs::path& file) {
 fs::path output_of(const RenderArguments& arguments) {
   const std::string named_after_scene = arguments.scene.stem().string() + ".png";
   if (arguments.output.empty()) return named_after_scene;
-  if (has_image_extension(arguments.output)) return arguments.output;
+  if (has_image_extension(arguments.output) || is_film_file(arguments.output))
+    return arguments.output;
   std::error_code ignored;
   if (!arguments.output.has_filename() || fs::is_directory(arguments.output, ignored))
     throw UsageError(fmt::format("-o {} is a directory; name a file in it: {}",
@@ -62,15 +64,16 @@ void check_format(const RenderArguments& arguments, const fs::path& output) {
   const auto require = [&](const char* option, const char* needed) {
     if (extension != needed)
       throw UsageError(
-          fmt::format("{} is for {} files; the picture is {}", option, needed, output.string()));
+          fmt::format("{} is for {} files; the output is {}", option, needed, output.string()));
   };
   if (arguments.half) require("--half", ".exr");
   if (arguments.png_bits) require("--png-bits", ".png");
+  if (arguments.sample_range) require("--samples", film_extension);
 }
 
 // A scene with layers may well be rendered to a PNG file, to look at.
 void leave_out_layers(FilmSettings& film, const fs::path& output, Warnings& warnings) {
-  if (lower_extension(output) == ".exr") return;
+  if (lower_extension(output) == ".exr" || is_film_file(output)) return;
   if (film.albedo || film.normal || film.depth || film.variance)
     warnings.add(
         fmt::format("{} has no room for the 'channels' of film; .exr files have", output.string()));
@@ -98,6 +101,7 @@ void apply(const RenderArguments& arguments, Scene& scene) {
   scene.film.exposure = arguments.exposure.value_or(scene.film.exposure);
   scene.render.samples = arguments.samples.value_or(scene.render.samples);
   scene.render.seed = arguments.seed.value_or(scene.render.seed);
+  if (arguments.sample_range) scene.render.samples = arguments.sample_range->to;
   if (arguments.crop) scene.film.crop = arguments.crop;
 
   const FilmSettings& film = scene.film;
@@ -105,16 +109,6 @@ void apply(const RenderArguments& arguments, Scene& scene) {
     throw UsageError(fmt::format("the crop {},{},{},{} reaches beyond the {} x {} picture",
                                  film.crop->x0, film.crop->x1, film.crop->y0, film.crop->y1,
                                  film.width, film.height));
-}
-
-// The picture, then what the film was asked to keep besides.
-std::vector<ImageLayer> layers_of(const Film& film, const FilmSettings& settings) {
-  std::vector<ImageLayer> layers{{"", {"R", "G", "B"}, radiance_of(film)}};
-  if (settings.albedo) layers.push_back({"albedo", {"R", "G", "B"}, albedo_of(film)});
-  if (settings.normal) layers.push_back({"normal", {"X", "Y", "Z"}, normal_of(film)});
-  if (settings.depth) layers.push_back({"depth", {"Z"}, depth_of(film)});
-  if (settings.variance) layers.push_back({"variance", {"R", "G", "B"}, variance_of(film)});
-  return layers;
 }
 
 bool any_samples(const Film& film) {
@@ -138,18 +132,23 @@ void rethrow_failure(const std::shared_future<void>& task) {
 }
 
 void write_picture(const fs::path& file, const Film& film, int samples, double seconds,
-                   const Scene& scene, const std::string& hash, const RenderArguments& arguments) {
+                   const FilmOrigin& origin, const RenderArguments& arguments) {
   WriteOptions options;
-  options.exposure = scene.film.exposure;
+  options.exposure = origin.film.exposure;
   // Unless asked to, comparisons of pictures are not to meet the rounding to half floats.
   options.full_float = !arguments.half;
   options.png_bits = arguments.png_bits.value_or(options.png_bits);
-  options.metadata = {{"pahrender:version", PAHRENDER_VERSION},
-                      {"pahrender:scene_hash", hash},
-                      {"pahrender:samples", std::to_string(samples)},
-                      {"pahrender:seed", std::to_string(scene.render.seed)},
-                      {"pahrender:seconds", fmt::format("{:.3f}", seconds)}};
-  write_image(file, layers_of(film, scene.film), options);
+  options.metadata = metadata_of(origin, samples);
+  options.metadata.emplace_back("pahrender:seconds", fmt::format("{:.3f}", seconds));
+  write_image(file, layers_of(film, origin.film), options);
+}
+
+void write_output(const fs::path& file, const RenderResult& result, const FilmOrigin& origin,
+                  const RenderArguments& arguments) {
+  if (is_film_file(file))
+    write_film(file, origin, result.held, result.film);
+  else
+    write_picture(file, result.film, result.samples, result.seconds, origin, arguments);
 }
 
 // `spent` seconds of the time limit are gone. Ends early if `loading`, of what will write the
@@ -167,7 +166,7 @@ RenderResult render_with_progress(const World& world, const Accelerator& acceler
   if (arguments.time_limit > 0) options.time_limit = std::max(arguments.time_limit - spent, 1e-3);
   options.count_traversal = !arguments.stats.empty();
   options.stop = &stop_requested();
-  const RenderGoal goal{scene.render.samples, options.time_limit};
+  const RenderGoal goal{scene.render.samples - started.samples.from, options.time_limit};
   // The library may come too late for the first passes, which nobody waits for: they are short.
   options.on_pass = [&](const Film& film, const FilmSamples& samples, const Progress& progress) {
     const bool last = samples.to == scene.render.samples;
@@ -199,7 +198,7 @@ ExitCode run_render(const RenderArguments& arguments) {
   if (!arguments.stats.empty() && is_same_file(output, arguments.stats))
     throw UsageError("--output and --stats name the same file");
   if (!arguments.check) {
-    check_writable(output);
+    check_output(output);
     if (!arguments.stats.empty()) check_can_create(arguments.stats);
   }
 
@@ -219,9 +218,10 @@ ExitCode run_render(const RenderArguments& arguments) {
   }
   leave_out_layers(scene.film, output, warnings);
   check_memory_for(scene.film);
-  Checkpoint checkpoint(output, {PAHRENDER_VERSION, loaded.hash, scene.film, scene.render},
-                        {arguments.checkpoint, arguments.resume, arguments.quiet}, warnings);
-  StartedFilm started = checkpoint.start(0);
+  const FilmOrigin origin{PAHRENDER_VERSION, loaded.hash, scene.film, scene.render};
+  Checkpoint checkpoint(output, origin, {arguments.checkpoint, arguments.resume, arguments.quiet},
+                        warnings);
+  StartedFilm started = checkpoint.start(arguments.sample_range.value_or(SampleRange{}).from);
   const World world = make_world(scene);
   warnings.add(world.warnings);
   if (warnings.failed()) return ExitCode::scene_error;
@@ -242,11 +242,10 @@ ExitCode run_render(const RenderArguments& arguments) {
   if (warnings.failed()) return ExitCode::scene_error;
 
   std::optional<EarlyPictures> early;
-  // What was written to a device cannot be replaced.
-  if (arguments.write_every && !is_device(output)) {
+  // What was written to a device cannot be replaced, and films are kept by checkpoints.
+  if (arguments.write_every && !is_device(output) && !is_film_file(output)) {
     const auto write = [&](const Film& film, const Progress& progress) {
-      write_picture(output, film, progress.samples_finished, progress.seconds, scene, loaded.hash,
-                    arguments);
+      write_picture(output, film, progress.samples_finished, progress.seconds, origin, arguments);
     };
     const auto warn = [&](const std::string& warning) {
       if (!arguments.quiet && can_redraw()) ProgressBar::wipe();
@@ -269,10 +268,11 @@ ExitCode run_render(const RenderArguments& arguments) {
                  : "interrupted before there was anything to save\n");
     return ExitCode::interrupted;
   }
-  write_picture(output, result.film, result.samples, result.seconds, scene, loaded.hash, arguments);
+  write_output(output, result, origin, arguments);
   if (result.complete) checkpoint.remove();
   warn_of_faults(result, scene.film.exposure, output, warnings);
-  if (!arguments.quiet) say(summary_of(output, result, scene.render.samples, total.seconds()));
+  if (!arguments.quiet)
+    say(summary_of(output, result, scene.render.samples - result.held.from, total.seconds()));
 
   if (!arguments.stats.empty()) {
     report.version = PAHRENDER_VERSION;

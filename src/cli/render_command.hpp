@@ -12,6 +12,10 @@
 
 namespace pah::cli {
 
+struct SampleRange {
+  int from = 0, to = 0;  // [from, to)
+};
+
 // What is not set stays as the scene says.
 struct RenderArguments {
   std::filesystem::path scene;
@@ -20,16 +24,17 @@ struct RenderArguments {
   std::optional<PixelRect> crop;
   std::optional<std::uint64_t> seed;
   std::optional<double> exposure;
-  int threads = 0;                     // 0: all
-  double time_limit = 0;               // seconds; 0: none
-  std::optional<double> checkpoint;    // seconds between writing what there is
-  bool resume = false;                 // go on from it
-  std::optional<double> write_every;   // seconds; 0: after every pass
-  std::string accelerator;             // empty: by the scene
-  std::vector<std::string> overrides;  // key.path=value
-  std::filesystem::path stats;         // empty: none
-  bool half = false;                   // EXR files in 16-bit floats
-  std::optional<int> png_bits;         // 8 or 16
+  int threads = 0;                          // 0: all
+  double time_limit = 0;                    // seconds; 0: none
+  std::optional<SampleRange> sample_range;  // of every pixel; none: all
+  std::optional<double> checkpoint;         // seconds between writing what there is
+  bool resume = false;                      // go on from it
+  std::optional<double> write_every;        // seconds; 0: after every pass
+  std::string accelerator;                  // empty: by the scene
+  std::vector<std::string> overrides;       // key.path=value
+  std::filesystem::path stats;              // empty: none
+  bool half = false;                        // EXR files in 16-bit floats
+  std::optional<int> png_bits;              // 8 or 16
   bool quiet = false;
   bool strict = false;  // warnings are errors
   bool check = false;

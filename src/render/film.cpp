@@ -2,6 +2,7 @@
 #include <cmath>
 #include <limits>
 #include <pah/render/film.hpp>
+#include <stdexcept>
 
 namespace pah {
 namespace {
@@ -36,6 +37,17 @@ DVec3 variance_of_mean(const FilmPixel& pixel) {
 }
 
 }  // namespace
+
+void add(Film& sum, const Film& other) {
+  if (other.pixels.size() != sum.pixels.size() || other.features.size() != sum.features.size())
+    throw std::invalid_argument("films to be added differ in what they hold");
+  for (std::size_t i = 0; i < sum.pixels.size(); ++i) sum.pixels[i].add(other.pixels[i]);
+  for (std::size_t i = 0; i < sum.features.size(); ++i) {
+    sum.features[i].albedo += other.features[i].albedo;
+    sum.features[i].normal += other.features[i].normal;
+    sum.features[i].depth += other.features[i].depth;
+  }
+}
 
 bool keeps_features(const FilmSettings& settings) {
   return settings.albedo || settings.normal || settings.depth;

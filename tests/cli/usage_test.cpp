@@ -49,7 +49,15 @@ TEST_CASE("wrong usage exits with 2 and says what is wrong") {
   check_failure({"--nope"}, 2, "--nope");
   check_failure({"scene.yaml", "--nope"}, 2, "--nope");
   check_failure({"scene.yaml", "other.yaml"}, 2, "other.yaml");
-  check_failure({"scene.yaml", "--samples", "4"}, 2, "did you mean '--spp'?");
+  check_failure({"scene.yaml", "--samples", "4"}, 2, "for a number of samples there is --spp");
+  for (const char* range : {"", "1", ":", "1:", ":1", "1:1", "2:1", "-1:1", "0:1x", "0:9999999999"})
+    check_failure({"scene.yaml", "-o", "a.film", "--samples", range}, 2, "--samples");
+  check_failure({"scene.yaml", "--samples", "0:4"}, 2, "--samples is for .film files");
+  check_failure({"scene.yaml", "-o", "a.film", "--samples", "0:4", "--spp", "4"}, 2, "--spp");
+  check_failure({"merge", "-o", "a.png"}, 2, "PART");
+  check_failure({"merge", "a.film"}, 2, "--output");
+  check_failure({"--spp", "4", "merge", "a.film", "-o", "a.png"}, 2, "cannot be used with merge");
+  check_failure({"scene.yaml", "--checkpoint", "-1"}, 2, "--checkpoint");
   check_failure({"scene.yaml", "--seeds=4"}, 2, "did you mean '--seed'?");
   check_failure({"render", "scene.yaml"}, 2, "no command 'render': pahrender SCENE -o OUT");
   check_failure({"scene.yaml", "-o"}, 2, "--output");
@@ -79,7 +87,7 @@ TEST_CASE("wrong usage exits with 2 and says what is wrong") {
   check_failure({"scene.yaml", "--crop", "0,33,0,24"}, 2, "crop");
   check_failure({"scene.yaml", "--png-bits", "12"}, 2, "--png-bits");
   check_failure({"scene.yaml", "-o", "out.exr", "--png-bits", "16"}, 2, "--png-bits is for .png");
-  check_failure({"scene.yaml", "--half"}, 2, "--half is for .exr files; the picture is scene.png");
+  check_failure({"scene.yaml", "--half"}, 2, "--half is for .exr files; the output is scene.png");
   check_failure({"scene.yaml", "-o", "out.tif", "--half"}, 2, "--half");
   check_failure({"--spp", "4", "compare", "a.png", "b.png"}, 2, "--spp");
 }

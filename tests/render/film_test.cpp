@@ -5,6 +5,7 @@
 #include <pah/image/compare.hpp>
 #include <pah/render/film.hpp>
 #include <random>
+#include <stdexcept>
 #include <vector>
 
 using namespace pah;
@@ -120,4 +121,35 @@ TEST_CASE("a sum of many samples does not drift") {
 
 TEST_CASE("a sum of 1e8 samples does not drift", "[full]") {
   for (const float constant : {0.1F, 0.5F}) CHECK(drift_of(constant, 100'000'000) < 1e-15);
+}
+
+TEST_CASE("films add up to the radiance of the whole, without error, in any split and order") {
+  std::mt19937 random(5);
+  std::lognormal_distribution<float> radiance(0, 4);
+  std::vector<DVec3> samples;
+  for (int i = 0; i < 1000; ++i)
+    samples.emplace_back(radiance(random), radiance(random), radiance(random));
+  Film whole = make_film(1, 1);
+  for (const DVec3& sample : samples) add(whole.pixels[0], sample);
+  for (int split = 0; split < 50; ++split) {
+    std::vector<Film> parts(7, make_film(1, 1));
+    for (const DVec3& sample : samples) add(parts[random() % parts.size()].pixels[0], sample);
+    Film sum = make_film(1, 1);
+    for (const Film& part : parts) add(sum, part);
+    CHECK(sum.pixels[0].radiance() == whole.pixels[0].radiance());
+    CHECK(sum.pixels[0].samples == 1000);
+    CHECK(variance_of(sum).at(0, 0).x == Approx(variance_of(whole).at(0, 0).x));
+  }
+}
+
+TEST_CASE("films that are added keep hits and features, and must be alike") {
+  Film film = make_film(1, 1);
+  film.pixels[0].hits = 3;
+  film.features = {{DVec3{1, 2, 3}, DVec3{4, 5, 6}, 7}};
+  Film sum = film;
+  add(sum, film);
+  CHECK(sum.pixels[0].hits == 6);
+  CHECK(sum.features[0] == FilmFeatures{DVec3{2, 4, 6}, DVec3{8, 10, 12}, 14});
+  CHECK_THROWS_AS(add(sum, make_film(1, 1)), std::invalid_argument);
+  CHECK_THROWS_AS(add(sum, make_film(2, 1)), std::invalid_argument);
 }

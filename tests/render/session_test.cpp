@@ -144,6 +144,23 @@ TEST_CASE("a restored film goes on as if nothing had happened") {
   }
 }
 
+TEST_CASE("a render goes on from a film, some tiles of which are behind") {
+  const Prepared prepared(room());
+  const RenderResult whole = prepared.render();
+  const Tiles odd{1, 3, 5, 7};
+  const Tiles even{0, 2, 4, 6, 8};
+  RenderSession session = prepared.session();
+  session.render_pass(all_tiles(session), 0, 2);
+  session.render_pass(odd, 2, 2);
+  const RenderResult result =
+      pah::render(prepared.world, *prepared.accelerator, prepared.scene.film, prepared.scene.render,
+                  {}, {std::move(session).take_film(), {0, 2, 2, even}});
+  CHECK(result.complete);
+  CHECK(result.samples == 5);
+  CHECK(result.held == FilmSamples{0, 5, 0, {}});
+  CHECK(same_to_the_last_bit(result.film, whole.film));
+}
+
 TEST_CASE("a film of other pixels is refused") {
   const Prepared prepared(room());
   RenderSession session = prepared.session();

@@ -21,14 +21,27 @@ struct FilmPixel {
   // Adds a sample's radiance, but does not count it. Float radiances are added without any error,
   // as long as the largest is less than some 2^50 times the least.
   void add_radiance(const DVec3& radiance) {
+    add_to_sum(radiance);
+    sum_of_squares += radiance * radiance;
+  }
+  // Adds another's samples; their radiance without any error, likewise.
+  void add(const FilmPixel& other) {
+    add_to_sum(other.sum);
+    rest += other.rest;
+    sum_of_squares += other.sum_of_squares;
+    samples += other.samples;
+    hits += other.hits;
+  }
+  [[nodiscard]] DVec3 radiance() const { return sum + rest; }  // of all samples
+
+ private:
+  void add_to_sum(const DVec3& radiance) {
     // Knuth, The Art of Computer Programming 2, 4.2.2, theorem B.
     const DVec3 total = sum + radiance;
     const DVec3 added = total - sum;
     rest += (sum - (total - added)) + (radiance - added);
     sum = total;
-    sum_of_squares += radiance * radiance;
   }
-  [[nodiscard]] DVec3 radiance() const { return sum + rest; }  // of all samples
 };
 
 // What further layers take of a pixel.
@@ -61,6 +74,10 @@ struct Film {
            static_cast<std::size_t>(x - rect.x0);
   }
 };
+
+// Adds other samples of the same pixels. The picture is the same to the last bit however samples
+// are split and whatever the order; features and the variance are within the rounding of doubles.
+void add(Film& sum, const Film& other);
 
 // Whether a film keeps features: some layer that the settings ask for takes them.
 [[nodiscard]] bool keeps_features(const FilmSettings& settings);

@@ -1,0 +1,124 @@
+// Pictures from parts that were rendered one by one.
+#include <algorithm>
+#include <cmath>
+#include <pah/io/film_file.hpp>
+#include <pah/io/image_file.hpp>
+
+#include "catch.hpp"
+#include "layer_pixels.hpp"
+#include "program.hpp"
+#include "support/temporary_folder.hpp"
+
+using namespace pah::testing;
+using pah::CurrentTemporaryFolder;
+using Words = std::vector<std::string>;
+
+namespace {
+
+void succeed(const Words& arguments) {
+  const Outcome outcome = run(arguments);
+  INFO(outcome.err);
+  REQUIRE(outcome.exit_code == 0);
+}
+
+void render_part(const std::string& file, const std::string& samples, const Words& more = {}) {
+  Words arguments{"scene.yaml", "-o", file, "--samples", samples};
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  succeed(arguments);
+}
+
+void check_refused(Words parts, const std::string& why) {
+  parts.insert(parts.begin(), "merge");
+  parts.insert(parts.end(), {"-o", "refused.exr"});
+  const auto before = files();
+  const Outcome outcome = run(parts);
+  INFO(outcome.err);
+  CHECK(outcome.exit_code == 4);
+  CHECK(contains(outcome.err, why));
+  CHECK(files() == before);
+}
+
+bool same_picture(const std::string& a, const std::string& b) {
+  return pah::read_image(a).pixels == pah::read_image(b).pixels;
+}
+
+// Sums of features and squares may be rounded otherwise.
+bool nearly_same_layers(const std::string& a, const std::string& b) {
+  const auto near = [](float x, float y) { return std::abs(x - y) <= 1e-6F * std::abs(y) + 1e-9F; };
+  return std::ranges::equal(layer_pixels(a), layer_pixels(b), near);
+}
+
+}  // namespace
+
+TEST_CASE("parts, in any split and order, give the picture of the whole") {
+  const CurrentTemporaryFolder folder;
+  write_file("scene.yaml", small_scene);
+  const Words layers{"-D", "film.channels=[albedo,normal,depth,variance]"};
+  Words whole{"scene.yaml", "-o", "whole.exr", "--spp", "61"};
+  whole.insert(whole.end(), layers.begin(), layers.end());
+  succeed(whole);
+  const std::vector<Words> splits{
+      {"0:61"}, {"1:61", "0:1"}, {"30:61", "0:7", "7:30"}, {"0:16", "32:48", "48:61", "16:32"}};
+  for (const Words& split : splits) {
+    Words merge{"merge", "-o", "merged.exr"};
+    for (const std::string& samples : split) {
+      merge.push_back("part" + std::to_string(merge.size()) + ".film");
+      render_part(merge.back(), samples, layers);
+    }
+    const Outcome outcome = run(merge);
+    INFO(outcome.err);
+    CHECK(outcome.exit_code == 0);
+    CHECK(contains(outcome.err, "wrote merged.exr: 32 x 24, 61 samples of "));
+    CHECK(same_picture("merged.exr", "whole.exr"));
+    CHECK(nearly_same_layers("merged.exr", "whole.exr"));
+  }
+}
+
+TEST_CASE("parts are merged in steps, and to any format") {
+  const CurrentTemporaryFolder folder;
+  write_file("scene.yaml", small_scene);
+  render_part("a.film", "0:3");
+  render_part("b.film", "3:8");
+  render_part("c.film", "8:10");
+  succeed({"merge", "b.film", "c.film", "-o", "bc.film"});
+  succeed({"merge", "bc.film", "a.film", "-o", "merged.png"});
+  succeed({"scene.yaml", "-o", "whole.png", "--spp", "10"});
+  CHECK(same_picture("merged.png", "whole.png"));
+  succeed({"merge", "bc.film", "a.film", "-o", "bright.png", "--exposure", "1"});
+  succeed({"scene.yaml", "-o", "whole.png", "--spp", "10", "--exposure", "1"});
+  CHECK(same_picture("bright.png", "whole.png"));
+}
+
+TEST_CASE("a film file has all samples unless told otherwise") {
+  const CurrentTemporaryFolder folder;
+  write_file("scene.yaml", small_scene);
+  succeed({"scene.yaml", "-o", "all.film"});
+  CHECK(pah::read_film("all.film").samples == pah::FilmSamples{0, 4, 0, {}});
+}
+
+TEST_CASE("parts that overlap, are missing or of other renders are named") {
+  const CurrentTemporaryFolder folder;
+  write_file("scene.yaml", small_scene);
+  render_part("a.film", "0:4");
+  render_part("b.film", "4:8");
+  render_part("c.film", "9:10");
+  render_part("d.film", "6:10");
+  check_refused({"a.film", "c.film", "b.film"},
+                "sample 8 is missing; render what is missing by --samples 8:9");
+  check_refused({"b.film"}, "samples 0 to 3 are missing");
+  check_refused({"d.film", "a.film", "b.film"}, "b.film and d.film overlap: both have sample 6");
+  check_refused({"a.film", "a.film"}, "a.film and a.film overlap");
+  check_refused({"a.film", "none.film"}, "none.film");
+  check_refused({"a.film", "scene.yaml"}, "scene.yaml is not a film of pahrender's");
+
+  render_part("seed.film", "4:8", {"--seed", "9"});
+  check_refused({"a.film", "seed.film"}, "seed.film does not go with a.film: the seed is 9, not 3");
+  write_file("scene.yaml", std::string(small_scene) + "# another\n");
+  render_part("scene.film", "4:8");
+  check_refused({"a.film", "scene.film"},
+                "scene.film does not go with a.film: the scene (its text");
+
+  pah::FilmFile film = pah::read_film("b.film");
+  pah::write_film("b.film", film.origin, {4, 8, 2, {0}}, film.film);
+  check_refused({"a.film", "b.film"}, "b.film was stopped in the midst of a pass");
+}
