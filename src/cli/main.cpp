@@ -99,6 +99,9 @@ void add_render_options(CLI::App& app, RenderArguments& arguments) {
          "Render only the pixels with X0 <= x < X1 and\n"
          "Y0 <= y < Y1; y grows downwards")
       ->type_name("X0,X1,Y0,Y1");
+  app.add_flag("--preview", arguments.preview,
+               "A quarter of the width and height, and 4 samples if\n"
+               "there is no --spp");
   app.add_option("--threads", arguments.threads, "0, the default: one per core")
       ->check(whole_number(0, 1024))
       ->type_name("N");

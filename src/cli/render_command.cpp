@@ -21,6 +21,7 @@
 #include "cli/film_size.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/memory.hpp"
+#include "cli/preview.hpp"
 #include "cli/progress.hpp"
 #include "cli/stopwatch.hpp"
 #include "cli/summary.hpp"
@@ -103,6 +104,9 @@ void apply(const RenderArguments& arguments, Scene& scene) {
     throw UsageError(fmt::format("the crop {},{},{},{} reaches beyond the {} x {} picture",
                                  film.crop->x0, film.crop->x1, film.crop->y0, film.crop->y1,
                                  film.width, film.height));
+  if (!arguments.preview) return;
+  scene.film = preview_of(film);
+  scene.render.samples = arguments.samples.value_or(preview_samples);
 }
 
 // The picture, then what the film was asked to keep besides.

@@ -18,6 +18,7 @@ struct RenderArguments {
   std::filesystem::path output;  // empty: the scene's name with .png, in the current folder
   std::optional<int> samples, width, height;
   std::optional<PixelRect> crop;
+  bool preview = false;
   std::optional<std::uint64_t> seed;
   std::optional<double> exposure;
   int threads = 0;                     // 0: all
