@@ -192,7 +192,7 @@ RenderResult render_with_progress(const World& world, const Accelerator& acceler
 
 }  // namespace
 
-ExitCode run_render(const RenderArguments& arguments) {
+ExitCode run_render(const RenderArguments& arguments, const RenderHooks& hooks) {
   const Stopwatch total;
   handle_interrupts();
   const fs::path output = output_of(arguments);
@@ -208,7 +208,7 @@ ExitCode run_render(const RenderArguments& arguments) {
   // oneTBB does not go beyond the number of cores unless told to.
   const tbb::global_control parallelism(tbb::global_control::max_allowed_parallelism,
                                         static_cast<std::size_t>(threads));
-  LoadedScene loaded = load_scene(arguments.scene, {arguments.overrides, {}});
+  LoadedScene loaded = load_scene(arguments.scene, {arguments.overrides, {}, hooks.on_file});
   Scene& scene = loaded.scene;
   Warnings warnings(arguments.quiet, arguments.strict);
   warnings.add(loaded.warnings);
@@ -256,6 +256,7 @@ ExitCode run_render(const RenderArguments& arguments) {
   const RenderResult result = render_with_progress(
       world, *acceleration.accelerator, scene, arguments, total.seconds(), loading, saving, early);
   const bool interrupted = stop_requested() && !result.complete;
+  if (interrupted && hooks.outdated != nullptr && *hooks.outdated) return ExitCode::interrupted;
   // Less than one sample for every pixel is better than nothing, but not than what there was.
   std::error_code ignored;
   const bool replaces = fs::is_regular_file(output, ignored);
