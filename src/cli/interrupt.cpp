@@ -12,9 +12,11 @@ namespace {
 static_assert(std::atomic<bool>::is_always_lock_free);
 std::atomic<bool> saving{false};
 std::atomic<bool> stop{false};
+std::atomic<bool> came{false};
 
 void on_signal(int) {
-  if (!saving || stop.exchange(true)) ::_exit(static_cast<int>(ExitCode::interrupted));
+  if (!saving || came.exchange(true)) ::_exit(static_cast<int>(ExitCode::interrupted));
+  stop = true;
 }
 
 }  // namespace
@@ -42,5 +44,9 @@ SavingOnInterrupt::SavingOnInterrupt() { saving = true; }
 SavingOnInterrupt::~SavingOnInterrupt() { saving = false; }
 
 const std::atomic<bool>& stop_requested() { return stop; }
+
+void request_stop() { stop = true; }
+void withdraw_stop() { stop = false; }
+bool signaled() { return came; }
 
 }  // namespace pah::cli

@@ -23,4 +23,10 @@ class SavingOnInterrupt {
 
 [[nodiscard]] const std::atomic<bool>& stop_requested();
 
+// Stops as the first signal does, without being one.
+void request_stop();
+void withdraw_stop();
+// Whether a signal came that did not end the program at once.
+[[nodiscard]] bool signaled();
+
 }  // namespace pah::cli

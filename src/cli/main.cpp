@@ -11,8 +11,6 @@
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
-#include <new>
-#include <pah/io/errors.hpp>
 #include <pah/render/acceleration.hpp>
 
 #include "cli/compare_command.hpp"
@@ -22,9 +20,10 @@
 #include "cli/interrupt.hpp"
 #include "cli/merge_command.hpp"
 #include "cli/render_command.hpp"
+#include "cli/report_exception.hpp"
 #include "cli/study_command.hpp"
+#include "cli/watch_command.hpp"
 #include "io/yaml/suggest.hpp"
-#include "scene/texture_store.hpp"
 
 namespace pah::cli {
 namespace {
@@ -126,6 +125,9 @@ void add_render_options(CLI::App& app, RenderArguments& arguments) {
          "Render only the pixels with X0 <= x < X1 and\n"
          "Y0 <= y < Y1; y grows downwards")
       ->type_name("X0,X1,Y0,Y1");
+  app.add_flag("--preview", arguments.preview,
+               "A quarter of the width and height, and 4 samples if\n"
+               "there is no --spp");
   app.add_option("--threads", arguments.threads, "0, the default: one per core")
       ->check(whole_number(0, 1024))
       ->type_name("N");
@@ -273,6 +275,14 @@ CLI::App* add_study(CLI::App& app, StudyArguments& arguments) {
   return study;
 }
 
+CLI::App* add_watch(CLI::App& app, RenderArguments& arguments) {
+  CLI::App* watch = app.add_subcommand(
+      "watch", "Render anew whenever the scene or a file that it names changes, until Ctrl-C");
+  watch->get_formatter()->column_width(25);
+  add_render_options(*watch, arguments);
+  return watch;
+}
+
 // Options before a subcommand would be silently ignored.
 void reject_render_options(const CLI::App& app, const CLI::App& subcommand) {
   for (const CLI::Option* option : app.get_options())
@@ -310,11 +320,13 @@ ExitCode run(int argc, char** argv) {
   MergeArguments merge_arguments;
   InspectArguments inspect_arguments;
   StudyArguments study_arguments;
+  RenderArguments watch_arguments;
   add_render_options(app, render_arguments);
   const CLI::App* compare = add_compare(app, compare_arguments);
   const CLI::App* merge = add_merge(app, merge_arguments);
   const CLI::App* inspect = add_inspect(app, inspect_arguments);
   const CLI::App* study = add_study(app, study_arguments);
+  const CLI::App* watch = add_watch(app, watch_arguments);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -338,6 +350,11 @@ ExitCode run(int argc, char** argv) {
     reject_render_options(app, *study);
     return run_study(study_arguments);
   }
+  if (watch->parsed()) {
+    reject_render_options(app, *watch);
+    if (watch_arguments.scene.empty()) throw UsageError("which scene?");
+    return run_watch(watch_arguments);
+  }
   if (render_arguments.scene.empty()) throw UsageError("which scene?");
   return run_render(render_arguments);
 }
@@ -346,31 +363,6 @@ ExitCode run(int argc, char** argv) {
 void hold_standard_streams() {
   for (int stream = 0; stream < 3; ++stream)
     if (::fcntl(stream, F_GETFD) == -1) (void)::open("/dev/null", O_RDONLY);
-}
-
-// Says what the exception that is being handled means.
-ExitCode report_exception() {
-  try {
-    throw;
-  } catch (const UsageError& error) {
-    say(fmt::format("pahrender: {}\nRun pahrender --help for what there is.\n", error.what()));
-    return ExitCode::wrong_usage;
-  } catch (const SceneError& errors) {
-    for (const LocatedError& error : errors.errors()) say(fmt::format("{}\n", format_error(error)));
-    return ExitCode::scene_error;
-  } catch (const TextureError& error) {  // found by loading, unless the file has changed since
-    say(fmt::format("pahrender: {}\n", error.what()));
-    return ExitCode::scene_error;
-  } catch (const FileError& error) {
-    say(fmt::format("pahrender: {}\n", error.what()));
-    return ExitCode::file_error;
-  } catch (const std::bad_alloc&) {
-    say("pahrender: out of memory\n");
-    return ExitCode::failed;
-  } catch (const std::exception& error) {
-    say(fmt::format("pahrender: {}\n", error.what()));
-    return ExitCode::failed;
-  }
 }
 
 // oneTBB throws where nobody can catch it if it is not given a thread.

@@ -24,6 +24,7 @@
 #include "cli/film_size.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/memory.hpp"
+#include "cli/preview.hpp"
 #include "cli/progress.hpp"
 #include "cli/stopwatch.hpp"
 #include "cli/summary.hpp"
@@ -109,6 +110,9 @@ void apply(const RenderArguments& arguments, Scene& scene) {
     throw UsageError(fmt::format("the crop {},{},{},{} reaches beyond the {} x {} picture",
                                  film.crop->x0, film.crop->x1, film.crop->y0, film.crop->y1,
                                  film.width, film.height));
+  if (!arguments.preview) return;
+  scene.film = preview_of(film);
+  scene.render.samples = arguments.samples.value_or(preview_samples);
 }
 
 bool any_samples(const Film& film) {
@@ -190,7 +194,7 @@ RenderResult render_with_progress(const World& world, const Accelerator& acceler
 
 }  // namespace
 
-ExitCode run_render(const RenderArguments& arguments) {
+ExitCode run_render(const RenderArguments& arguments, const RenderHooks& hooks) {
   const Stopwatch total;
   handle_interrupts();
   const fs::path output = output_of(arguments);
@@ -206,7 +210,7 @@ ExitCode run_render(const RenderArguments& arguments) {
   // oneTBB does not go beyond the number of cores unless told to.
   const tbb::global_control parallelism(tbb::global_control::max_allowed_parallelism,
                                         static_cast<std::size_t>(threads));
-  LoadedScene loaded = load_scene(arguments.scene, {arguments.overrides, {}});
+  LoadedScene loaded = load_scene(arguments.scene, {arguments.overrides, {}, hooks.on_file});
   Scene& scene = loaded.scene;
   Warnings warnings(arguments.quiet, arguments.strict);
   warnings.add(loaded.warnings);
@@ -259,6 +263,7 @@ ExitCode run_render(const RenderArguments& arguments) {
                            loading, saving, early, std::move(started), checkpoint);
   if (!result.complete) checkpoint.keep(result.film, result.held);
   const bool interrupted = stop_requested() && !result.complete;
+  if (interrupted && hooks.outdated != nullptr && *hooks.outdated) return ExitCode::interrupted;
   // Less than one sample for every pixel is better than nothing, but not than what there was.
   std::error_code ignored;
   const bool replaces = fs::is_regular_file(output, ignored);

@@ -1,8 +1,10 @@
 // pahrender SCENE -o OUT: the default command.
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <pah/scene/settings.hpp>
 #include <string>
@@ -22,6 +24,7 @@ struct RenderArguments {
   std::filesystem::path output;  // empty: the scene's name with .png, in the current folder
   std::optional<int> samples, width, height;
   std::optional<PixelRect> crop;
+  bool preview = false;
   std::optional<std::uint64_t> seed;
   std::optional<double> exposure;
   int threads = 0;                          // 0: all
@@ -40,7 +43,13 @@ struct RenderArguments {
   bool check = false;
 };
 
+// For those who render a scene anew when it changes.
+struct RenderHooks {
+  std::function<void(const std::filesystem::path&)> on_file;  // as LoadOptions::on_file
+  const std::atomic<bool>* outdated = nullptr;  // once set, a render that was stopped is not saved
+};
+
 // Throws UsageError, SceneError or FileError.
-ExitCode run_render(const RenderArguments& arguments);
+ExitCode run_render(const RenderArguments& arguments, const RenderHooks& hooks = {});
 
 }  // namespace pah::cli

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <pah/io/errors.hpp>
 #include <pah/scene/scene.hpp>
 #include <string>
@@ -24,6 +25,9 @@ struct LoadLimits {
 struct LoadOptions {
   std::vector<std::string> overrides;  // "key.path=value", YAML values
   LoadLimits limits;
+  // Called with each file that the scene names, or one that those name, before it is read; also if
+  // it is not there.
+  std::function<void(const std::filesystem::path&)> on_file = {};
 };
 
 struct LoadedScene {

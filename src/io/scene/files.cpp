@@ -115,6 +115,7 @@ std::optional<fs::path> SceneFiles::open(ReadContext& context, const YamlNode& n
 std::optional<fs::path> SceneFiles::open(ReadContext& context, const Mark& mark,
                                          const fs::path& file, std::uint64_t most_bytes) {
   fs::path whole = (folder_ / file).lexically_normal();
+  if (on_file_) on_file_(whole);
   const std::string shown = "'" + file.string() + "'";
   const auto fail = [&](const std::string& message) {
     context.errors.add(mark, message);

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -31,7 +32,11 @@ class ContentHash {
 
 class SceneFiles {
  public:
-  explicit SceneFiles(std::filesystem::path folder) : folder_(std::move(folder)) {}
+  using OnFile = std::function<void(const std::filesystem::path&)>;
+
+  // `on_file` is called with the whole path of each file before it is looked at.
+  explicit SceneFiles(std::filesystem::path folder, OnFile on_file = {})
+      : folder_(std::move(folder)), on_file_(std::move(on_file)) {}
 
   // The whole path of the regular file that `node` names, its bytes added to the hash when it is
   // first seen; nothing, and an error, if it cannot be read or is larger than `most_bytes`.
@@ -47,6 +52,7 @@ class SceneFiles {
 
  private:
   std::filesystem::path folder_;
+  OnFile on_file_;
   ContentHash hash_;
   std::unordered_map<std::string, bool> seen_;  // by whole path: readable
 };

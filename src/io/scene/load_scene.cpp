@@ -169,7 +169,7 @@ LoadedScene load_scene(const fs::path& file, const LoadOptions& options) {
   ErrorCollector errors(file.string(), text, options.overrides);
   ReadContext context{errors, nullptr, synonym_hint};
   LoadedScene loaded;
-  SceneFiles files(file.parent_path());
+  SceneFiles files(file.parent_path(), options.on_file);
   files.hash().add_part(whole);
   for (const std::string& text_of_override : options.overrides)
     files.hash().add_part(text_of_override);
