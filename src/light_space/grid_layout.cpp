@@ -104,7 +104,9 @@ void lay_out_tiles(LightGrid& grid, std::span<const Extent> extents, double tile
     const double width = extents[i].u.max - double{face.u};
     const double height = extents[i].v.max - double{face.v};
     const double most = most_tiles_across / std::max(width, height);
-    face.per_length = static_cast<float>(std::min(std::sqrt(tiles / area), most));
+    // What is next to a point has one tile.
+    const auto per_length = static_cast<float>(std::min(std::sqrt(tiles / area), most));
+    face.per_length = std::isfinite(per_length) ? per_length : 1;
     const auto across = [&](double length) {
       return static_cast<std::uint32_t>(length * double{face.per_length}) + 1;
     };
