@@ -45,7 +45,7 @@ std::optional<PixelRect> parse_crop(std::string_view text) {
 }
 
 // "FROM:TO" of at least one sample.
-std::optional<SampleRange> parse_sample_range(std::string_view text) {
+std::optional<SampleRange> parse_sample_range(const std::string& text) {
   SampleRange range;
   const char* const end = text.data() + text.size();
   const auto from = std::from_chars(text.data(), end, range.from);

@@ -177,7 +177,7 @@ RenderResult render_with_progress(const World& world, const Accelerator& acceler
     if (early && !last && is_done(loading)) early->show(film, progress);
     checkpoint.pass_done(film, samples);
   };
-  if (early) options.pass_seconds = *arguments.write_every / 2;
+  if (early) options.pass_seconds = arguments.write_every.value_or(0) / 2;
   std::optional<ProgressBar> bar;
   if (!arguments.quiet && can_redraw()) bar.emplace(goal);
   Heartbeat heartbeat(goal);
