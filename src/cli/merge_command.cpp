@@ -101,8 +101,9 @@ ExitCode run_merge(const MergeArguments& arguments) {
     write_film(output, origin, {from, to, 0, {}}, film);
   else
     write_picture(output, film, origin, to);
-  say(fmt::format("wrote {}: {} x {}, {} samples of {} files\n", output.string(), film.rect.width(),
-                  film.rect.height(), to - from, parts.size()));
+  say(fmt::format("wrote {}: {} x {}, {} samples of {}\n", output.string(), film.rect.width(),
+                  film.rect.height(), to - from,
+                  parts.size() == 1 ? "1 file" : fmt::format("{} files", parts.size())));
   return ExitCode::done;
 }
 

@@ -38,10 +38,7 @@ Aabb bounds_of(const Bvh& bvh) {
       bvh.blocks.size(), blocks_a_task, Aabb{},
       [&](std::size_t first, std::size_t last) {
         Aabb box;
-        for (std::size_t i = first; i < last; ++i) {
-          for (std::size_t lane = 0; lane < TriangleBlock::width; ++lane)
-            box.extend(bvh.blocks[i].triangle(lane).bounds());
-        }
+        for (std::size_t i = first; i < last; ++i) box.extend(bounds_of(bvh.blocks[i]));
         return box;
       },
       [](Aabb& total, const Aabb& box) { total.extend(box); });
@@ -151,8 +148,7 @@ class Builder {
   template <typename Use>
   void for_each_face(const TriangleBlock& block, const Use& use) const {
     const std::size_t count = triangles_in(block);
-    Aabb box;
-    for (std::size_t i = 0; i < count; ++i) box.extend(block.triangle(i).bounds());
+    const Aabb box = bounds_of(block);
     for (int face = 0; face < View::faces; ++face) {
       if (!may_see(face, box)) continue;
       Outlines outlines;
@@ -276,9 +272,7 @@ class Builder {
 std::vector<std::uint32_t> blocks_near(const Bvh& bvh, const Vec3& eye, double distance) {
   std::vector<std::uint32_t> near;
   for (std::size_t i = 0; i < bvh.blocks.size(); ++i) {
-    Aabb box;
-    for (std::size_t lane = 0; lane < TriangleBlock::width; ++lane)
-      box.extend(bvh.blocks[i].triangle(lane).bounds());
+    const Aabb box = bounds_of(bvh.blocks[i]);
     const DVec3 gap = glm::max(DVec3(box.min) - DVec3(eye), DVec3(eye) - DVec3(box.max));
     if (std::max({gap.x, gap.y, gap.z}) < distance) near.push_back(static_cast<std::uint32_t>(i));
   }

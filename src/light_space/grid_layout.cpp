@@ -128,11 +128,8 @@ template <typename View>
 std::vector<Content> contents(const LightGrid& grid, const View& view) {
   std::vector<Content> of(grid.tiles.size());
   parallel_for(grid.bvh->blocks.size(), 4096, [&](std::size_t i) {
-    const TriangleBlock& block = grid.bvh->blocks[i];
-    Aabb box = block.triangle(0).bounds();
-    for (std::size_t lane = 1; lane < TriangleBlock::width; ++lane)
-      box.extend(block.triangle(lane).bounds());
-    const TilePart at = tile_part_of(grid, seen(view, DVec3(box.center())));
+    const DVec3 middle(bounds_of(grid.bvh->blocks[i]).center());
+    const TilePart at = tile_part_of(grid, seen(view, middle));
     of[at.tile].blocks.fetch_add(1, std::memory_order_relaxed);
     of[at.tile].parts.fetch_or(1ULL << at.part, std::memory_order_relaxed);
   });

@@ -71,6 +71,14 @@ using PlaceBytes = std::uint32_t;
 // Bytes have seven bits. With the eighth set none borrows from the next.
 inline constexpr std::uint32_t eighth_bits = 0x80808080U;
 
+// Of all its triangles.
+[[nodiscard]] inline Aabb bounds_of(const TriangleBlock& block) {
+  Aabb box;
+  for (std::size_t lane = 0; lane < TriangleBlock::width; ++lane)
+    box.extend(block.triangle(lane).bounds());
+  return box;
+}
+
 class LightGrid {
  public:
   // Kernels read lists a vector at a time.
