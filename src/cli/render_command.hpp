@@ -35,6 +35,7 @@ struct RenderArguments {
   std::optional<double> write_every;        // seconds; 0: after every pass
   std::string accelerator;                  // empty: by the scene
   std::vector<std::string> overrides;       // key.path=value
+  std::optional<int> frame;                 // of an animation
   std::filesystem::path stats;              // empty: none
   bool half = false;                        // EXR files in 16-bit floats
   std::optional<int> png_bits;              // 8 or 16

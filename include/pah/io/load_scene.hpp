@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <pah/io/errors.hpp>
 #include <pah/scene/scene.hpp>
 #include <string>
@@ -28,11 +29,13 @@ struct LoadOptions {
   // Called with each file that the scene names, or one that those name, before it is read; also if
   // it is not there.
   std::function<void(const std::filesystem::path&)> on_file = {};
+  std::optional<int> frame = {};  // of an animation; none: the one that the scene says, or 0
 };
 
 struct LoadedScene {
   Scene scene;
   std::string hash;  // hex, of the text, the overrides and every file that the scene names
+  bool animated = false;               // another frame may be another picture
   std::vector<LocatedError> warnings;  // what is left out of the picture, or taken otherwise
 };
 

@@ -4,6 +4,8 @@
 #include <system_error>
 
 #include "io/extension.hpp"
+#include "io/scene/animation.hpp"
+#include "io/scene/keyframes.hpp"
 #include "io/scene/language.hpp"
 #include "io/scene/reading.hpp"
 #include "io/scene/synonyms.hpp"
@@ -37,6 +39,13 @@ std::string read_text(const fs::path& file, std::uint64_t most_bytes) {
   return text;
 }
 
+// The tree is at one frame already.
+void describe_animation(SceneReading& reading, const YamlNode* /*node*/) {
+  if (reading.context.language == nullptr) return;
+  (void)read_animation(reading.context, nullptr, {});
+  (void)read_keyframes(reading.context, nullptr, 0);
+}
+
 // The order counts: whatever names something is read after it.
 void read_sections(SceneReading& reading, MapReader& map) {
   using Section = std::pair<const char*, void (*)(SceneReading&, const YamlNode*)>;
@@ -48,7 +57,8 @@ void read_sections(SceneReading& reading, MapReader& map) {
                                   {"meshes", read_meshes},
                                   {"lights", read_lights},
                                   {"influence_areas", read_influence_areas},
-                                  {"acceleration", read_acceleration}})
+                                  {"acceleration", read_acceleration},
+                                  {"animation", describe_animation}})
     map.nested(key, [&, section = read](const YamlNode* node) {
       if (node == nullptr || node->kind != YamlNode::Kind::null) section(reading, node);
     });
@@ -134,6 +144,13 @@ Language describe_language() {
 
 namespace {
 
+// What a section holds, or null.
+const YamlNode* section(const YamlNode& root, std::string_view key) {
+  const YamlEntry* entry = root.kind == YamlNode::Kind::map ? root.find(key) : nullptr;
+  return entry == nullptr || entry->value->kind == YamlNode::Kind::null ? nullptr
+                                                                        : entry->value.get();
+}
+
 // Files that are no scenes of ours, by their names.
 void refuse_other_formats(const fs::path& file) {
   const std::string extension = lower_extension(file);
@@ -182,10 +199,16 @@ LoadedScene load_scene(const fs::path& file, const LoadOptions& options) {
     if (root->kind == YamlNode::Kind::null) {
       errors.add({}, "the file holds no scene");
     } else {
+      const FrameTime now = read_animation(context, section(*root, "animation"), options.frame);
+      const YamlRef shown = at_frame(context, root, now);
+      // What is left in the place of numbers would be one error more.
+      if (errors.size() > faults.size()) throw SceneError(errors.located());
+      loaded.animated = shown != root;
+      if (loaded.animated) files.hash().add_part(std::to_string(now.frame));
       SceneReading reading{context, loaded.scene, files, options.limits};
-      read_map(context, root.get(), "scene", "the scene", [&](MapReader& map) {
+      read_map(context, shown.get(), "scene", "the scene", [&](MapReader& map) {
         read_sections(reading, map);
-        for (const YamlEntry& entry : root->entries)
+        for (const YamlEntry& entry : shown->entries)
           if (entry.key.starts_with("x-")) map.find(entry.key);
       });
       check_pictures(reading);

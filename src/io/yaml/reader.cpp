@@ -6,6 +6,7 @@
 #include <limits>
 #include <sstream>
 
+#include "io/yaml/expression.hpp"
 #include "io/yaml/hints.hpp"
 #include "io/yaml/suggest.hpp"
 
@@ -28,6 +29,10 @@ enum class NumberFault { none, not_a_number, not_finite, out_of_range };
 
 NumberFault parse_number(const YamlNode& node, double& value) {
   if (node.kind != Kind::scalar || node.quoted) return NumberFault::not_a_number;
+  if (node.number) {
+    value = *node.number;
+    return std::isfinite(value) ? NumberFault::none : NumberFault::not_finite;
+  }
   std::string text = node.text;
   if (!text.empty() && text.front() == '+') text.erase(0, 1);
   std::string lower = text;
@@ -85,7 +90,10 @@ bool read_number(ReadContext& context, const YamlNode& node, const ValueName& na
     value = number;
     return true;
   }
-  context.errors.add(node.mark, name + " must be " + wanted + ", not " + describe(node));
+  std::string hint;
+  if (fault == NumberFault::not_a_number && node.kind == Kind::scalar && !node.quoted)
+    hint = suggestion(unknown_name_in(node.text), expression_names());
+  context.errors.add(node.mark, name + " must be " + wanted + ", not " + describe(node) + hint);
   return false;
 }
 
@@ -123,6 +131,10 @@ std::string describe(const YamlNode& node) {
   if (node.kind == Kind::null) return "nothing";
   if (node.kind == Kind::list) return "a list of " + std::to_string(node.items.size());
   if (node.kind == Kind::map) return "a map";
+  if (node.number) {
+    const std::string number = format_number(*node.number);
+    return node.text.empty() ? number : number + ", which is " + node.text;
+  }
   constexpr std::size_t longest = 60;
   std::string text = node.text.substr(0, longest);
   while (!text.empty() && text.size() < node.text.size() &&

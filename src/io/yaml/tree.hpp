@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -38,6 +39,7 @@ struct YamlNode {
   bool quoted = false;  // scalars: "42" is text, 42 a number
   Mark mark;
   std::string text;                // scalars
+  std::optional<double> number;    // of a scalar whose text is none: at some frame
   std::vector<YamlRef> items;      // lists
   std::vector<YamlEntry> entries;  // maps, in order, keys unique
   std::uint64_t count = 1;         // nodes from here down, aliases expanded

@@ -1,0 +1,32 @@
+// Numbers that depend on the frame: "15 * frame", "2 + sin(90 * time)".
+//
+//   sum     = product {("+" | "-") product}
+//   product = factor {("*" | "/" | "%") factor}
+//   factor  = ("+" | "-") factor | number | "frame" | "time" | ["sin" | "cos" | "abs" | "floor"]
+//             "(" sum ")"
+//
+// Angles are in degrees. a % b is in [0, b), whatever the sign of a.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace pah {
+
+struct FrameTime {
+  double frame = 0;
+  double time = 0;  // seconds
+};
+
+// The value, which need not be finite; none if the text is no such expression.
+[[nodiscard]] std::optional<double> evaluate(std::string_view text, const FrameTime& now);
+
+// For a text in the place of a number that is an expression but for one name: that name.
+[[nodiscard]] std::string unknown_name_in(std::string_view text);
+
+// All of them: variables and functions.
+[[nodiscard]] const std::vector<std::string>& expression_names();
+
+}  // namespace pah
