@@ -16,6 +16,7 @@
 #include "cli/compare_command.hpp"
 #include "cli/console.hpp"
 #include "cli/exit_code.hpp"
+#include "cli/frames.hpp"
 #include "cli/inspect_command.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/merge_command.hpp"
@@ -44,9 +45,9 @@ std::optional<PixelRect> parse_crop(std::string_view text) {
   return PixelRect{x0, x1, y0, y1};
 }
 
-// "FROM:TO" of at least one sample.
-std::optional<SampleRange> parse_sample_range(const std::string& text) {
-  SampleRange range;
+// "FROM:TO" of at least one.
+std::optional<IndexRange> parse_range(const std::string& text) {
+  IndexRange range;
   const char* const end = text.data() + text.size();
   const auto from = std::from_chars(text.data(), end, range.from);
   if (from.ec != std::errc{} || from.ptr == end || *from.ptr != ':') return std::nullopt;
@@ -54,6 +55,16 @@ std::optional<SampleRange> parse_sample_range(const std::string& text) {
   if (to.ec != std::errc{} || to.ptr != end) return std::nullopt;
   if (range.from < 0 || range.from >= range.to || range.to > 1 << 30) return std::nullopt;
   return range;
+}
+
+// The same, or one number.
+std::optional<IndexRange> parse_frames(const std::string& text) {
+  int frame = 0;
+  const char* const end = text.data() + text.size();
+  const auto number = std::from_chars(text.data(), end, frame);
+  if (number.ec != std::errc{} || number.ptr != end) return parse_range(text);
+  if (frame < 0 || frame >= 1 << 30) return std::nullopt;
+  return IndexRange{frame, frame + 1};
 }
 
 CLI::Validator finite_number(double low) {
@@ -95,7 +106,7 @@ void add_render_options(CLI::App& app, RenderArguments& arguments) {
   app.add_option_function<std::string>(
          "--samples",
          [&arguments](const std::string& text) {
-           arguments.sample_range = parse_sample_range(text);
+           arguments.sample_range = parse_range(text);
            if (!arguments.sample_range)
              throw CLI::ValidationError(
                  "--samples", text +
@@ -106,6 +117,18 @@ void add_render_options(CLI::App& app, RenderArguments& arguments) {
          "to a .film file for merge")
       ->excludes(spp)
       ->type_name("FROM:TO");
+  app.add_option_function<std::string>(
+         "--frames",
+         [&arguments](const std::string& text) {
+           arguments.frames = parse_frames(text);
+           if (!arguments.frames)
+             throw CLI::ValidationError(
+                 "--frames", text + " is neither A:B with 0 <= A < B <= 2^30 nor one frame");
+         },
+         "Render the frames A <= i < B of an animation, or one.\n"
+         "#### in FILE is their number. Those that are there,\n"
+         "whole and of this scene, are kept (.png, .exr, .film)")
+      ->type_name("A:B");
   app.add_option("--width", arguments.width,
                  "Of the picture, in pixels; without --height that\n"
                  "follows, as the scene's")
@@ -356,7 +379,7 @@ ExitCode run(int argc, char** argv) {
     return run_watch(watch_arguments);
   }
   if (render_arguments.scene.empty()) throw UsageError("which scene?");
-  return run_render(render_arguments);
+  return run_frames(render_arguments);
 }
 
 // The next file that is opened takes the place of a stream that is closed, and would be written to.

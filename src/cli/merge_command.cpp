@@ -75,14 +75,6 @@ Film sum_of(const std::vector<Part>& parts) {
   return sum;
 }
 
-void write_picture(const fs::path& file, const Film& film, const FilmOrigin& origin, int samples) {
-  WriteOptions options;
-  options.exposure = origin.film.exposure;
-  options.full_float = true;
-  options.metadata = metadata_of(origin, samples);
-  write_image(file, layers_of(film, origin.film), options);
-}
-
 }  // namespace
 
 ExitCode run_merge(const MergeArguments& arguments) {
@@ -100,7 +92,7 @@ ExitCode run_merge(const MergeArguments& arguments) {
   if (is_film_file(output))
     write_film(output, origin, {from, to, 0, {}}, film);
   else
-    write_picture(output, film, origin, to);
+    write_image(output, layers_of(film, origin.film), write_options(origin, to, {}));
   say(fmt::format("wrote {}: {} x {}, {} samples of {}\n", output.string(), film.rect.width(),
                   film.rect.height(), to - from,
                   parts.size() == 1 ? "1 file" : fmt::format("{} files", parts.size())));

@@ -135,14 +135,13 @@ void rethrow_failure(const std::shared_future<void>& task) {
   if (is_done(task)) task.get();
 }
 
+PictureFormat format_of(const RenderArguments& arguments) {
+  return {arguments.half, arguments.png_bits.value_or(8)};
+}
+
 void write_picture(const fs::path& file, const Film& film, int samples, double seconds,
                    const FilmOrigin& origin, const RenderArguments& arguments) {
-  WriteOptions options;
-  options.exposure = origin.film.exposure;
-  // Unless asked to, comparisons of pictures are not to meet the rounding to half floats.
-  options.full_float = !arguments.half;
-  options.png_bits = arguments.png_bits.value_or(options.png_bits);
-  options.metadata = metadata_of(origin, samples);
+  WriteOptions options = write_options(origin, samples, format_of(arguments));
   options.metadata.emplace_back("pahrender:seconds", fmt::format("{:.3f}", seconds));
   write_image(file, layers_of(film, origin.film), options);
 }
@@ -210,10 +209,13 @@ ExitCode run_render(const RenderArguments& arguments, const RenderHooks& hooks) 
   // oneTBB does not go beyond the number of cores unless told to.
   const tbb::global_control parallelism(tbb::global_control::max_allowed_parallelism,
                                         static_cast<std::size_t>(threads));
-  LoadedScene loaded = load_scene(arguments.scene, {arguments.overrides, {}, hooks.on_file, arguments.frame});
+  LoadedScene loaded =
+      load_scene(arguments.scene, {arguments.overrides, {}, hooks.on_file, arguments.frame});
   Scene& scene = loaded.scene;
   Warnings warnings(arguments.quiet, arguments.strict);
   warnings.add(loaded.warnings);
+  if (arguments.frame && !loaded.animated)
+    warnings.add("nothing in the scene depends on the frame");
   apply(arguments, scene);
   if (arguments.check) {
     if (warnings.failed()) return ExitCode::scene_error;
@@ -223,9 +225,15 @@ ExitCode run_render(const RenderArguments& arguments, const RenderHooks& hooks) 
   leave_out_layers(scene.film, output, warnings);
   check_memory_for(scene.film);
   const FilmOrigin origin{PAHRENDER_VERSION, loaded.hash, scene.film, scene.render};
+  const int first_sample = arguments.sample_range.value_or(IndexRange{}).from;
+  if (arguments.keep_whole &&
+      is_whole(output, origin, {first_sample, scene.render.samples, 0, {}}, format_of(arguments))) {
+    if (!arguments.quiet) say(fmt::format("{} is there already\n", output.string()));
+    return warnings.failed() ? ExitCode::scene_error : ExitCode::done;
+  }
   Checkpoint checkpoint(output, origin, {arguments.checkpoint, arguments.resume, arguments.quiet},
                         warnings);
-  StartedFilm started = checkpoint.start(arguments.sample_range.value_or(SampleRange{}).from);
+  StartedFilm started = checkpoint.start(first_sample);
   const World world = make_world(scene);
   warnings.add(world.warnings);
   if (warnings.failed()) return ExitCode::scene_error;

@@ -11,6 +11,7 @@
 
 #include "cli/console.hpp"
 #include "cli/file_watch.hpp"
+#include "cli/frames.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/report_exception.hpp"
 
@@ -48,7 +49,7 @@ void render_once(const RenderArguments& arguments, FileWatch& files, bool first)
   files.watch(arguments.scene);
   const StopOnChange watcher(files);
   try {
-    run_render(arguments, {[&](const auto& file) { files.watch(file); }, &watcher.changed()});
+    run_frames(arguments, {[&](const auto& file) { files.watch(file); }, &watcher.changed()});
   } catch (const UsageError&) {
     if (first) throw;
     report_exception();

@@ -49,6 +49,8 @@ Facts facts_of(const FilmOrigin& origin) {
   };
 }
 
+constexpr std::size_t facts_of_scene = 2;  // the first ones
+
 void put_rect(WordWriter& writer, const PixelRect& rect) {
   for (const int bound : {rect.x0, rect.x1, rect.y0, rect.y1}) writer.put_int(bound);
 }
@@ -192,6 +194,14 @@ std::vector<std::string> differences(const FilmOrigin& found, const FilmOrigin& 
       result.push_back(
           fmt::format("{} is {}, not {}", ours[i].first, ours[i].second, theirs[i].second));
   return result;
+}
+
+std::string describe_settings(const FilmOrigin& origin) {
+  const Facts facts = facts_of(origin);
+  std::string text;
+  for (std::size_t i = facts_of_scene; i < facts.size(); ++i)
+    text += fmt::format("{}{}: {}", text.empty() ? "" : ", ", facts[i].first, facts[i].second);
+  return text;
 }
 
 void write_film(const fs::path& file, const FilmOrigin& origin, const FilmSamples& samples,

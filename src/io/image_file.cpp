@@ -187,6 +187,17 @@ void write_image(const fs::path& file, const std::vector<ImageLayer>& layers,
   write_text_file(file, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
 }
 
+ImageMetadata read_metadata(const fs::path& file) {
+  // Not as pictures of others are opened: those are read without their metadata.
+  const auto input = OIIO::ImageInput::open(file.string());
+  if (!input) fail_to_read(file, or_unknown(OIIO::geterror()));
+  ImageMetadata metadata;
+  for (const OIIO::ParamValue& value : input->spec().extra_attribs)
+    if (value.type() == OIIO::TypeString)
+      metadata.emplace_back(value.name().string(), value.get_string());
+  return metadata;
+}
+
 Image read_image(const fs::path& file, std::uint64_t max_bytes) {
   try {
     const OpenPicture picture = open_picture(file, max_bytes);

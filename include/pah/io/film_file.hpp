@@ -24,6 +24,9 @@ struct FilmOrigin {
 [[nodiscard]] std::vector<std::string> differences(const FilmOrigin& found,
                                                    const FilmOrigin& wanted);
 
+// All that samples depend on besides the program and the scene, in words.
+[[nodiscard]] std::string describe_settings(const FilmOrigin& origin);
+
 struct FilmFile {
   FilmOrigin origin;
   FilmSamples samples;

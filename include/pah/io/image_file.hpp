@@ -41,6 +41,9 @@ void check_writable(const std::filesystem::path& file);
 void write_image(const std::filesystem::path& file, const std::vector<ImageLayer>& layers,
                  const WriteOptions& options = {});
 
+// The texts among a picture's metadata, in no certain order. Throws FileError.
+[[nodiscard]] ImageMetadata read_metadata(const std::filesystem::path& file);
+
 // R, G and B (or the first three channels, or the first, thrice), linear: 8- and 16-bit colors are
 // taken for sRGB. Throws FileError, also if the picture is larger than `max_bytes` as RGB floats.
 [[nodiscard]] Image read_image(const std::filesystem::path& file,

@@ -34,8 +34,8 @@ struct LoadOptions {
 
 struct LoadedScene {
   Scene scene;
-  std::string hash;  // hex, of the text, the overrides and every file that the scene names
-  bool animated = false;               // another frame may be another picture
+  std::string hash;       // hex, of the text, the overrides and every file that the scene names
+  bool animated = false;  // another frame may be another picture
   std::vector<LocatedError> warnings;  // what is left out of the picture, or taken otherwise
 };
 

@@ -13,6 +13,7 @@ namespace pah::cli {
 struct PictureFunctions {
   decltype(&pah::write_image) write_image;
   decltype(&pah::read_image) read_image;
+  decltype(&pah::read_metadata) read_metadata;
   decltype(&pah::read_image_header) read_image_header;
   decltype(&pah::check_image_file) check_image_file;
   decltype(&pah::read_first_channel) read_first_channel;

@@ -36,6 +36,10 @@ Image read_image(const std::filesystem::path& file, std::uint64_t max_bytes) {
   return loaded().read_image(file, max_bytes);
 }
 
+ImageMetadata read_metadata(const std::filesystem::path& file) {
+  return loaded().read_metadata(file);
+}
+
 ImageHeader read_image_header(const std::filesystem::path& file, std::uint64_t max_bytes) {
   return loaded().read_image_header(file, max_bytes);
 }
