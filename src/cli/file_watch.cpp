@@ -6,30 +6,20 @@ namespace pah::cli {
 
 namespace fs = std::filesystem;
 
-FileWatch::State FileWatch::state_of(const fs::path& file) {
-  std::error_code error;
-  State state;
-  state.size = fs::file_size(file, error);
-  if (!error) state.modified = fs::last_write_time(file, error);
-  if (error) return {};
-  state.there = true;
-  return state;
-}
-
 void FileWatch::watch(const fs::path& file) {
   const std::lock_guard lock(mutex_);
-  files_.emplace(file, state_of(file));
+  files_.emplace(file, stamp_of(file));
 }
 
 bool FileWatch::changed() const {
   const std::lock_guard lock(mutex_);
   return std::ranges::any_of(
-      files_, [](const auto& entry) { return state_of(entry.first) != entry.second; });
+      files_, [](const auto& entry) { return stamp_of(entry.first) != entry.second; });
 }
 
 void FileWatch::accept_changes() {
   const std::lock_guard lock(mutex_);
-  for (auto& [file, state] : files_) state = state_of(file);
+  for (auto& [file, stamp] : files_) stamp = stamp_of(file);
 }
 
 void FileWatch::clear() {

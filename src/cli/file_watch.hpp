@@ -1,10 +1,11 @@
 // Whether files have changed, by their sizes and the times they were modified.
 #pragma once
 
-#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <mutex>
+
+#include "io/file_stamp.hpp"
 
 namespace pah::cli {
 
@@ -18,17 +19,8 @@ class FileWatch {
   void clear();
 
  private:
-  struct State {
-    bool there = false;
-    std::uintmax_t size = 0;
-    std::filesystem::file_time_type modified;
-
-    [[nodiscard]] bool operator==(const State&) const = default;
-  };
-  static State state_of(const std::filesystem::path& file);
-
   mutable std::mutex mutex_;
-  std::map<std::filesystem::path, State> files_;
+  std::map<std::filesystem::path, FileStamp> files_;
 };
 
 }  // namespace pah::cli

@@ -45,11 +45,14 @@ ExitCode run_frames(const RenderArguments& arguments, const RenderHooks& hooks) 
   require_number(arguments.stats, "--stats", frames);
   RenderArguments one = arguments;
   one.keep_whole = true;
+  LoadedFiles loaded;
+  RenderHooks frame_hooks = hooks;
+  if (frame_hooks.loaded == nullptr) frame_hooks.loaded = &loaded;
   for (int frame = frames.from; frame < frames.to; ++frame) {
     one.frame = frame;
     one.output = numbered(pattern, frame);
     one.stats = numbered(arguments.stats, frame);
-    const ExitCode code = run_render(one, hooks);
+    const ExitCode code = run_render(one, frame_hooks);
     if (code != ExitCode::done) return code;
   }
   return ExitCode::done;

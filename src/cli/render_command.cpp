@@ -209,8 +209,8 @@ ExitCode run_render(const RenderArguments& arguments, const RenderHooks& hooks) 
   // oneTBB does not go beyond the number of cores unless told to.
   const tbb::global_control parallelism(tbb::global_control::max_allowed_parallelism,
                                         static_cast<std::size_t>(threads));
-  LoadedScene loaded =
-      load_scene(arguments.scene, {arguments.overrides, {}, hooks.on_file, arguments.frame});
+  LoadedScene loaded = load_scene(
+      arguments.scene, {arguments.overrides, {}, hooks.on_file, hooks.loaded, arguments.frame});
   Scene& scene = loaded.scene;
   Warnings warnings(arguments.quiet, arguments.strict);
   warnings.add(loaded.warnings);

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <functional>
 #include <optional>
+#include <pah/io/loaded_files.hpp>
 #include <pah/scene/settings.hpp>
 #include <string>
 #include <vector>
@@ -49,6 +50,7 @@ struct RenderArguments {
 // For those who render a scene more than once.
 struct RenderHooks {
   std::function<void(const std::filesystem::path&)> on_file;  // as LoadOptions::on_file
+  LoadedFiles* loaded = nullptr;                              // as LoadOptions::loaded
   const std::atomic<bool>* outdated = nullptr;  // once set, a render that was stopped is not saved
 };
 

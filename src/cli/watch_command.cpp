@@ -44,12 +44,14 @@ class StopOnChange {
   std::jthread thread_;  // last: it uses the others
 };
 
-void render_once(const RenderArguments& arguments, FileWatch& files, bool first) {
+void render_once(const RenderArguments& arguments, FileWatch& files, LoadedFiles& loaded,
+                 bool first) {
   files.clear();
   files.watch(arguments.scene);
   const StopOnChange watcher(files);
   try {
-    run_frames(arguments, {[&](const auto& file) { files.watch(file); }, &watcher.changed()});
+    run_frames(arguments,
+               {[&](const auto& file) { files.watch(file); }, &loaded, &watcher.changed()});
   } catch (const UsageError&) {
     if (first) throw;
     report_exception();
@@ -71,8 +73,9 @@ void wait_for_change(FileWatch& files) {
 
 ExitCode run_watch(const RenderArguments& arguments) {
   FileWatch files;
+  LoadedFiles loaded;
   for (bool first = true;; first = false) {
-    render_once(arguments, files, first);
+    render_once(arguments, files, loaded, first);
     if (signaled()) return ExitCode::interrupted;
     withdraw_stop();
     if (!arguments.quiet && !files.changed())

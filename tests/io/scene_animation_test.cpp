@@ -17,7 +17,9 @@ double value_of(std::string_view text, double frame = 6, double time = 0.25) {
   return *value;
 }
 
-LoadOptions at(int frame) { return {.overrides = {}, .limits = {}, .on_file = {}, .frame = frame}; }
+LoadOptions at(int frame) {
+  return {.overrides = {}, .limits = {}, .on_file = {}, .loaded = nullptr, .frame = frame};
+}
 
 // The vertical field of view that a scene's camera has at a frame.
 double fov_at(const std::string& fov, int frame, const std::string& rest = "") {
@@ -89,7 +91,9 @@ TEST_CASE("without a frame to load, the scene is as it says itself") {
   CHECK(fov(load(text + "animation: {frame: 7}")) == 37);
   CHECK(fov(load(text, {{"animation.frame=2.5"}, {}})) == 32.5);
   CHECK(fov(load(text + "animation: {frame: 7}", at(2))) == 32);
-  CHECK(fov(load("{}", {{"camera.type=perspective", "camera.fov=50 + frame"}, {}, {}, 5})) == 55);
+  CHECK(
+      fov(load("{}", {{"camera.type=perspective", "camera.fov=50 + frame"}, {}, {}, nullptr, 5})) ==
+      55);
 }
 
 TEST_CASE("keyframes are met, and numbers between them lie between theirs") {

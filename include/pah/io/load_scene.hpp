@@ -5,6 +5,7 @@
 #include <functional>
 #include <optional>
 #include <pah/io/errors.hpp>
+#include <pah/io/loaded_files.hpp>
 #include <pah/scene/scene.hpp>
 #include <string>
 #include <vector>
@@ -29,6 +30,7 @@ struct LoadOptions {
   // Called with each file that the scene names, or one that those name, before it is read; also if
   // it is not there.
   std::function<void(const std::filesystem::path&)> on_file = {};
+  LoadedFiles* loaded = nullptr;  // of the load before, and for the next; may be none
   std::optional<int> frame = {};  // of an animation; none: the one that the scene says, or 0
 };
 

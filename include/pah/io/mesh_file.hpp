@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <pah/io/errors.hpp>
 #include <pah/scene/scene.hpp>
@@ -25,6 +26,9 @@ struct MeshFileOptions {
   std::filesystem::path folder;
   // Everything as one mesh, the transforms of nodes applied, without materials, cameras and lights.
   bool merged = false;
+  // Called with each further file that geometry and materials are read from, before it is; also if
+  // it is not there. Images are only named.
+  std::function<void(const std::filesystem::path&)> on_file = {};
 };
 
 // What is wrong with a mesh file. Line and column of an OBJ or ASCII PLY or STL file count from 1;

@@ -102,8 +102,9 @@ class Importer {
 
 void import_gltf(const std::filesystem::path& file, const MeshFileOptions& options, MeshFile& out) {
   try {
-    const GltfDocument document =
+    GltfDocument document =
         read_gltf_document(file, folder_of(file, options.folder), options.file_bytes);
+    document.on_file = options.on_file;
     Importer(document, options, out).run();
   } catch (const Json::exception&) {
     throw MeshFileError("a value in it is not of the kind that glTF asks for");

@@ -150,7 +150,11 @@ fs::path GltfDocument::image_of(const std::string& uri) const {
 }
 
 std::string GltfDocument::data_of(const std::string& uri) const {
-  if (!is_data(uri)) return read_bytes(path_of(uri), max_bytes);
+  if (!is_data(uri)) {
+    const fs::path path = path_of(uri);
+    if (on_file) on_file(path);
+    return read_bytes(path, max_bytes);
+  }
   const std::size_t comma = uri.find(";base64,");
   auto decoded = comma == std::string::npos
                      ? std::nullopt

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <string_view>
 
@@ -15,7 +16,8 @@ struct GltfDocument {
   std::filesystem::path folder;  // in or under which all files that it names have to lie
   std::uint64_t max_bytes = 0;   // of each of them
   Json json;
-  std::string binary;  // the binary chunk of a .glb
+  std::string binary;                                              // the binary chunk of a .glb
+  std::function<void(const std::filesystem::path&)> on_file = {};  // as MeshFileOptions::on_file
 
   // The file that a URI names. Throws MeshFileError if it lies elsewhere.
   [[nodiscard]] std::filesystem::path path_of(const std::string& uri) const;

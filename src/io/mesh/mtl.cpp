@@ -252,6 +252,7 @@ void read_mtl_materials(const ObjFile& obj, const fs::path& file, const MeshFile
       const std::string name = library.filename().string();
       if (!lies_in(library, limit))
         throw MeshFileError("it names '" + name + "' outside of its folder");
+      if (options.on_file) options.on_file(library);
       std::error_code error;
       if (!fs::is_regular_file(library, error)) {
         missing = true;

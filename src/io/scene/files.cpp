@@ -105,6 +105,19 @@ std::string ContentHash::hex() const {
   return text;
 }
 
+std::optional<std::string> SceneFiles::content_hash(const fs::path& file,
+                                                    std::uintmax_t size) const {
+  const std::string key = file.string();
+  if (loaded_ != nullptr)
+    if (const auto* kept = loaded_->hashes.find(key)) return kept->value;
+  const FileStamp stamp = stamp_of(file);
+  ContentHash hash;
+  const bool whole = size > block_bytes ? add_blocks(file, size, hash) : add_file(file, hash);
+  if (!whole) return {};
+  if (loaded_ != nullptr) loaded_->hashes.put(key, {{file, stamp}}, hash.hex());
+  return hash.hex();
+}
+
 std::optional<fs::path> SceneFiles::open(ReadContext& context, const YamlNode& node,
                                          const ValueName& name, std::uint64_t most_bytes) {
   std::string text;
@@ -115,7 +128,7 @@ std::optional<fs::path> SceneFiles::open(ReadContext& context, const YamlNode& n
 std::optional<fs::path> SceneFiles::open(ReadContext& context, const Mark& mark,
                                          const fs::path& file, std::uint64_t most_bytes) {
   fs::path whole = (folder_ / file).lexically_normal();
-  if (on_file_) on_file_(whole);
+  announce(whole);
   const std::string shown = "'" + file.string() + "'";
   const auto fail = [&](const std::string& message) {
     context.errors.add(mark, message);
@@ -136,7 +149,9 @@ std::optional<fs::path> SceneFiles::open(ReadContext& context, const Mark& mark,
   const auto [entry, is_new] = seen_.emplace(whole.string(), true);
   if (is_new) {
     hash_.add_part(std::to_string(size));
-    entry->second = size > block_bytes ? add_blocks(whole, size, hash_) : add_file(whole, hash_);
+    const std::optional<std::string> hash = content_hash(whole, size);
+    if (hash) hash_.add_part(*hash);
+    entry->second = hash.has_value();
   }
   if (!entry->second) return fail("cannot read file " + shown);
   return whole;

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <unordered_map>
 
+#include "io/scene/loaded_files.hpp"
 #include "io/yaml/reader.hpp"
 
 namespace pah {
@@ -35,8 +36,10 @@ class SceneFiles {
   using OnFile = std::function<void(const std::filesystem::path&)>;
 
   // `on_file` is called with the whole path of each file before it is looked at.
-  explicit SceneFiles(std::filesystem::path folder, OnFile on_file = {})
-      : folder_(std::move(folder)), on_file_(std::move(on_file)) {}
+  // `loaded` may be null.
+  explicit SceneFiles(std::filesystem::path folder, OnFile on_file = {},
+                      LoadedFiles::Impl* loaded = nullptr)
+      : folder_(std::move(folder)), on_file_(std::move(on_file)), loaded_(loaded) {}
 
   // The whole path of the regular file that `node` names, its bytes added to the hash when it is
   // first seen; nothing, and an error, if it cannot be read or is larger than `most_bytes`.
@@ -47,12 +50,23 @@ class SceneFiles {
                                             const std::filesystem::path& file,
                                             std::uint64_t most_bytes);
 
+  // Tells whoever watches files of one that is read for another.
+  void announce(const std::filesystem::path& file) const {
+    if (on_file_) on_file_(file);
+  }
+
   ContentHash& hash() { return hash_; }
+  [[nodiscard]] LoadedFiles::Impl* loaded() const { return loaded_; }
   [[nodiscard]] const std::filesystem::path& folder() const { return folder_; }
 
  private:
   std::filesystem::path folder_;
+  // The hash of what is in the file; none if it cannot be read to its end.
+  [[nodiscard]] std::optional<std::string> content_hash(const std::filesystem::path& file,
+                                                        std::uintmax_t size) const;
+
   OnFile on_file_;
+  LoadedFiles::Impl* loaded_;
   ContentHash hash_;
   std::unordered_map<std::string, bool> seen_;  // by whole path: readable
 };

@@ -35,8 +35,9 @@ std::string_view bytes_of(const std::vector<T>& values) {
   return {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T)};
 }
 
-// What a mesh file gets from the files that it names in turn.
-void hash_content(ContentHash& hash, const std::filesystem::path& path, MeshFile& file) {
+// Of what a mesh file gets from the files that it names in turn.
+std::string content_hash(const std::filesystem::path& path, MeshFile& file) {
+  ContentHash hash;
   const std::string extension = lower_extension(path);
   // Others hold their geometry themselves.
   const bool names_geometry = extension == ".gltf" || extension == ".glb";
@@ -52,12 +53,31 @@ void hash_content(ContentHash& hash, const std::filesystem::path& path, MeshFile
     for_each_input(material, [&](const auto& input) {
       hash.add({reinterpret_cast<const char*>(&input.value), sizeof input.value});
     });
+  return hash.hex();
+}
+
+// From the load before, if nothing that it was read from has changed.
+ReadMeshFile read_or_take(SceneReading& reading, const std::filesystem::path& path,
+                          const std::string& key, MeshFileOptions options) {
+  LoadedFiles::Impl* const loaded = reading.files.loaded();
+  if (loaded != nullptr)
+    if (const auto* kept = loaded->meshes.find(key)) {
+      for (const auto& [file, stamp] : kept->files) reading.files.announce(file);
+      return kept->value;
+    }
+  StampedFiles files{{path, stamp_of(path)}};
+  options.on_file = [&](const std::filesystem::path& file) {
+    files.emplace_back(file, stamp_of(file));
+    reading.files.announce(file);
+  };
+  ReadMeshFile read{read_mesh_file(path, options), ""};
+  read.content_hash = content_hash(path, read.file);
+  if (loaded != nullptr) loaded->meshes.put(key, std::move(files), read);
+  return read;
 }
 
 // Reads the file into the scene; the ids in it become the scene's.
-ImportedFile add_file(SceneReading& reading, const std::filesystem::path& path, MeshFile file,
-                      const Mark& mark) {
-  hash_content(reading.files.hash(), path, file);
+ImportedFile add_file(SceneReading& reading, MeshFile file, const Mark& mark) {
   Scene& scene = reading.scene;
   const auto first_mesh = static_cast<MeshId>(scene.meshes.size());
   const auto first_material = static_cast<MaterialId>(scene.materials.size());
@@ -178,10 +198,11 @@ const ImportedFile* import_file(SceneReading& reading, const YamlNode& node, con
   // A mesh of the scene's own may share what lies anywhere in the scene.
   if (lies_in(*path, reading.files.folder())) options.folder = reading.files.folder();
   try {
-    MeshFile file = read_mesh_file(*path, options);
-    for (const std::string& warning : file.warnings)
+    ReadMeshFile read = read_or_take(reading, *path, key, options);
+    reading.files.hash().add_part(read.content_hash);
+    for (const std::string& warning : read.file.warnings)
       reading.context.errors.warn(node.mark, "mesh file '" + node.text + "': " + warning);
-    return &reading.imported.emplace(key, add_file(reading, *path, std::move(file), node.mark))
+    return &reading.imported.emplace(key, add_file(reading, std::move(read.file), node.mark))
                 .first->second;
   } catch (const MeshFileError& error) {
     reading.context.errors.add(node.mark, located_message(node.text, error));

@@ -186,7 +186,8 @@ LoadedScene load_scene(const fs::path& file, const LoadOptions& options) {
   ErrorCollector errors(file.string(), text, options.overrides);
   ReadContext context{errors, nullptr, synonym_hint};
   LoadedScene loaded;
-  SceneFiles files(file.parent_path(), options.on_file);
+  LoadedFiles::Impl* const kept = options.loaded == nullptr ? nullptr : &options.loaded->impl();
+  SceneFiles files(file.parent_path(), options.on_file, kept);
   files.hash().add_part(whole);
   for (const std::string& text_of_override : options.overrides)
     files.hash().add_part(text_of_override);
@@ -218,6 +219,7 @@ LoadedScene load_scene(const fs::path& file, const LoadOptions& options) {
     errors.add(error.mark(), error.what());
   }
   if (errors.size() > 0) throw SceneError(errors.located());
+  if (kept != nullptr) kept->drop_unused();
   warn_of_gaps(loaded.scene, errors);
   loaded.hash = files.hash().hex();
   loaded.warnings = errors.located_warnings();
