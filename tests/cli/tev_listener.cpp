@@ -65,7 +65,8 @@ ListenedPicture read_create(Reader& reader) {
   require(width > 0 && height > 0, "a picture without pixels");
   read_channels(reader);
   const auto pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
-  return {{width, height, std::vector<glm::vec3>(pixels, glm::vec3(0))}, std::vector<bool>(pixels), 0};
+  return {
+      {width, height, std::vector<glm::vec3>(pixels, glm::vec3(0))}, std::vector<bool>(pixels), 0};
 }
 
 void read_update(Reader& reader, ListenedPicture& picture) {

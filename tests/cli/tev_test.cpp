@@ -130,8 +130,8 @@ TEST_CASE("tev shows a crop where it is in the picture") {
 TEST_CASE("the picture is the same with a viewer and without") {
   const CurrentTemporaryFolder folder;
   const TevListener listener;
-  run(small_render("with.film", {"--spp", "5", "--tev", listener.address()}));
-  run(small_render("without.film", {"--spp", "5"}));
+  (void)run(small_render("with.film", {"--spp", "5", "--tev", listener.address()}));
+  (void)run(small_render("without.film", {"--spp", "5"}));
   CHECK(!read_file("with.film").empty());
   CHECK(read_file("with.film") == read_file("without.film"));
   CHECK(shown(listener, "with.film").updates >= 6);
