@@ -211,6 +211,19 @@ TEST_CASE("a viewer that reads nothing keeps nobody waiting") {
   CHECK(Clock::now() - start < 2s);
 }
 
+TEST_CASE("what waits when a picture is finished is sent") {
+  const TevListener listener;
+  const Film film = gray_film(640, 640);
+  TevStream stream(address_of(listener), "waits", settings_of(film));
+  for (int y = 0; y < 640; y += 32)
+    for (int x = 0; x < 640; x += 32) stream.show(film, {x, x + 32, y, y + 32});
+  stream.finish();
+  CHECK(!stream.take_fault());
+  const ListenedPicture picture = shown(listener, "waits");
+  CHECK(picture.updates == 400);
+  CHECK(picture.image.pixels == radiance_of(film).pixels);
+}
+
 TEST_CASE("tev is told of a picture's tiles as they are finished") {
   const CurrentTemporaryFolder folder;
   const TevListener listener;
