@@ -175,6 +175,19 @@ void add_render_options(CLI::App& app, RenderArguments& arguments) {
                  "once every pixel has a sample")
       ->check(finite_number(0))
       ->type_name("SECONDS");
+  app.add_option_function<std::string>(
+         "--tev",
+         [&arguments](const std::string& text) {
+           arguments.tev = parse_tev_address(text);
+           if (!arguments.tev)
+             throw CLI::ValidationError(
+                 "--tev", text +
+                              " is not HOST, HOST:PORT or PORT with 1 <= PORT <= 65535; an IPv6 "
+                              "address is in brackets, [::1]:14158");
+         },
+         "Show the picture under way in the viewer tev that\n"
+         "listens there; its own default is 127.0.0.1:14158")
+      ->type_name("HOST:PORT");
   app.add_option("--exposure", arguments.exposure, "In stops; for .png and .jpg")
       ->check(finite_number(-std::numeric_limits<double>::infinity()))
       ->type_name("X");

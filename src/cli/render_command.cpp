@@ -28,6 +28,7 @@
 #include "cli/progress.hpp"
 #include "cli/stopwatch.hpp"
 #include "cli/summary.hpp"
+#include "cli/tev_stream.hpp"
 #include "cli/warnings.hpp"
 #include "io/extension.hpp"
 #include "io/image_library.hpp"
@@ -154,15 +155,27 @@ void write_output(const fs::path& file, const RenderResult& result, const FilmOr
     write_picture(file, result.film, result.samples, result.seconds, origin, arguments);
 }
 
+// Those who look at the picture while it is rendered.
+struct Onlookers {
+  std::function<void(const std::string&)> warn;
+  std::optional<EarlyPictures> early;
+  std::optional<TevStream> tev;
+
+  // By one thread at a time.
+  void warn_of_faults() {
+    if (!tev) return;
+    if (const std::optional<std::string> fault = tev->take_fault()) warn(*fault);
+  }
+};
+
 // `spent` seconds of the time limit are gone. Ends early if `loading`, of what will write the
 // picture, fails. `saving` begins with the first samples: until then there is nothing that an
 // interrupt should wait for.
 RenderResult render_with_progress(const World& world, const Accelerator& accelerator,
                                   const Scene& scene, const RenderArguments& arguments,
                                   double spent, const std::shared_future<void>& loading,
-                                  std::optional<SavingOnInterrupt>& saving,
-                                  std::optional<EarlyPictures>& early, StartedFilm started,
-                                  Checkpoint& checkpoint) {
+                                  std::optional<SavingOnInterrupt>& saving, Onlookers& onlookers,
+                                  StartedFilm started, Checkpoint& checkpoint) {
   RenderOptions options;
   options.threads = arguments.threads;
   // 0 would be none.
@@ -173,16 +186,21 @@ RenderResult render_with_progress(const World& world, const Accelerator& acceler
   // The library may come too late for the first passes, which nobody waits for: they are short.
   options.on_pass = [&](const Film& film, const FilmSamples& samples, const Progress& progress) {
     const bool last = samples.to == scene.render.samples;
-    if (early && !last && is_done(loading)) early->show(film, progress);
+    if (onlookers.early && !last && is_done(loading)) onlookers.early->show(film, progress);
     checkpoint.pass_done(film, samples);
   };
-  if (early) options.pass_seconds = arguments.write_every.value_or(0) / 2;
+  if (onlookers.early) options.pass_seconds = arguments.write_every.value_or(0) / 2;
+  if (onlookers.tev)
+    options.on_tile = [&](const Film& film, const PixelRect& tile) {
+      onlookers.tev->show(film, tile);
+    };
   std::optional<ProgressBar> bar;
   if (!arguments.quiet && can_redraw()) bar.emplace(goal);
   Heartbeat heartbeat(goal);
   options.on_progress = [&](const Progress& progress) {
     rethrow_failure(loading);
     if (!saving) saving.emplace();
+    onlookers.warn_of_faults();
     if (bar)
       bar->show(progress);
     else if (!arguments.quiet)
@@ -253,22 +271,24 @@ ExitCode run_render(const RenderArguments& arguments, const RenderHooks& hooks) 
   warnings.add(warnings_of(acceleration, world, scene));
   if (warnings.failed()) return ExitCode::scene_error;
 
-  std::optional<EarlyPictures> early;
+  Onlookers onlookers{[&](const std::string& warning) {
+                        if (!arguments.quiet && can_redraw()) ProgressBar::wipe();
+                        warnings.add(warning);
+                      },
+                      {},
+                      {}};
   // What was written to a device cannot be replaced, and films are kept by checkpoints.
   if (arguments.write_every && !is_device(output) && !is_film_file(output)) {
     const auto write = [&](const Film& film, const Progress& progress) {
       write_picture(output, film, progress.samples_finished, progress.seconds, origin, arguments);
     };
-    const auto warn = [&](const std::string& warning) {
-      if (!arguments.quiet && can_redraw()) ProgressBar::wipe();
-      warnings.add(warning);
-    };
-    early.emplace(*arguments.write_every, write, warn);
+    onlookers.early.emplace(*arguments.write_every, write, onlookers.warn);
   }
+  if (arguments.tev) onlookers.tev.emplace(*arguments.tev, output.filename().string(), scene.film);
   std::optional<SavingOnInterrupt> saving;
   const RenderResult result =
       render_with_progress(world, *acceleration.accelerator, scene, arguments, total.seconds(),
-                           loading, saving, early, std::move(started), checkpoint);
+                           loading, saving, onlookers, std::move(started), checkpoint);
   if (!result.complete) checkpoint.keep(result.film, result.held);
   const bool interrupted = stop_requested() && !result.complete;
   if (interrupted && hooks.outdated != nullptr && *hooks.outdated) return ExitCode::interrupted;
@@ -283,6 +303,8 @@ ExitCode run_render(const RenderArguments& arguments, const RenderHooks& hooks) 
   }
   write_output(output, result, origin, arguments);
   if (result.complete) checkpoint.remove();
+  if (onlookers.tev) onlookers.tev->finish();
+  onlookers.warn_of_faults();
   warn_of_faults(result, scene.film.exposure, output, warnings);
   if (!arguments.quiet)
     say(summary_of(output, result, scene.render.samples - result.held.from, total.seconds()));

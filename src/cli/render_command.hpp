@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "cli/exit_code.hpp"
+#include "cli/tev_address.hpp"
 
 namespace pah::cli {
 
@@ -34,6 +35,7 @@ struct RenderArguments {
   std::optional<double> checkpoint;        // seconds between writing what there is
   bool resume = false;                     // go on from it
   std::optional<double> write_every;       // seconds; 0: after every pass
+  std::optional<TevAddress> tev;           // a viewer that shows the picture under way
   std::string accelerator;                 // empty: by the scene
   std::vector<std::string> overrides;      // key.path=value
   std::optional<IndexRange> frames;        // of an animation

@@ -27,6 +27,8 @@ DVec3 over(const DVec3& sum, std::uint32_t count) {
   return count > 0 ? sum / static_cast<double>(count) : DVec3{0};
 }
 
+DVec3 mean_radiance(const FilmPixel& pixel) { return over(pixel.radiance(), pixel.samples); }
+
 // Of a mean of n independent samples; 0 for fewer than two.
 DVec3 variance_of_mean(const FilmPixel& pixel) {
   if (pixel.samples < 2) return DVec3{0};
@@ -57,8 +59,16 @@ std::size_t bytes_per_pixel(const FilmSettings& settings) {
   return sizeof(FilmPixel) + (keeps_features(settings) ? sizeof(FilmFeatures) : 0);
 }
 
-Image radiance_of(const Film& film) {
-  return image_of(film, [](const FilmPixel& p) { return over(p.radiance(), p.samples); });
+Image radiance_of(const Film& film) { return image_of(film, mean_radiance); }
+
+Image radiance_of(const Film& film, const PixelRect& rect) {
+  Image image{rect.width(), rect.height(), {}};
+  image.pixels.reserve(static_cast<std::size_t>(image.width) *
+                       static_cast<std::size_t>(image.height));
+  for (int y = rect.y0; y < rect.y1; ++y)
+    for (int x = rect.x0; x < rect.x1; ++x)
+      image.pixels.push_back(Vec3(mean_radiance(film.at(x, y))));
+  return image;
 }
 
 Image albedo_of(const Film& film) {
@@ -94,7 +104,7 @@ ErrorEstimate estimate_error(const Film& film) {
   double bias = 0;
   for (const FilmPixel& pixel : film.pixels) {
     if (pixel.samples < 2) continue;
-    const DVec3 mean = over(pixel.radiance(), pixel.samples);
+    const DVec3 mean = mean_radiance(pixel);
     const DVec3 variance = variance_of_mean(pixel);
     // mean^2 exceeds the square of the true value by the variance, on average.
     const DVec3 reference = glm::max(mean * mean - variance, DVec3{0});

@@ -97,8 +97,14 @@ RenderResult render(const World& world, const Accelerator& accelerator, const Fi
   const Clock::time_point start = Clock::now();
   RenderSession session(world, accelerator, film, settings,
                         {options.threads, options.count_traversal});
-  if (!started.film.pixels.empty()) session.restore(std::move(started.film));
   const std::span<const PixelRect> tiles = session.tiles();
+  const auto show = [&](const PixelRect& tile) {
+    if (options.on_tile) options.on_tile(session.film(), tile);
+  };
+  if (!started.film.pixels.empty()) {
+    session.restore(std::move(started.film));
+    std::ranges::for_each(tiles, show);
+  }
   std::vector<std::size_t> all(tiles.size());
   std::iota(all.begin(), all.end(), std::size_t{0});
   const int first = started.samples.to;
@@ -128,6 +134,7 @@ RenderResult render(const World& world, const Accelerator& accelerator, const Fi
     const Clock::time_point pass_start = Clock::now();
     const auto tile_done = [&](const FinishedTile& tile) {
       const PixelRect& rect = tiles[tile.index];
+      show(rect);
       const auto samples = static_cast<std::uint64_t>(rect.width()) *
                            static_cast<std::uint64_t>(rect.height()) *
                            static_cast<std::uint64_t>(count);

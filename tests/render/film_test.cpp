@@ -52,6 +52,17 @@ TEST_CASE("means and variances of pixels") {
   CHECK(variance_of(film).at(1, 0) == Vec3(0));
 }
 
+TEST_CASE("a part of a film has the same means, where the film is a part itself") {
+  Film film = make_film(4, 3);
+  film.rect = {10, 14, 20, 23};
+  for (std::size_t i = 0; i < film.pixels.size(); ++i) add(film.pixels[i], DVec3(0.1) * double(i));
+  const Image part = radiance_of(film, {11, 13, 21, 23});
+  CHECK(part.width == 2);
+  CHECK(part.height == 2);
+  const Image all = radiance_of(film);
+  CHECK(part.pixels == std::vector<Vec3>{all.at(1, 1), all.at(2, 1), all.at(1, 2), all.at(2, 2)});
+}
+
 TEST_CASE("the error is predicted within its interval") {
   // Pixels of many brightnesses and of skewed noise; the truth is known.
   std::mt19937 random(7);

@@ -1,5 +1,7 @@
 // What is called between the passes of a render, and how long passes are.
 #include <algorithm>
+#include <limits>
+#include <mutex>
 #include <pah/render/render.hpp>
 #include <stdexcept>
 #include <thread>
@@ -69,4 +71,30 @@ TEST_CASE("a render can be ended between passes", "[threads]") {
   };
   stop = false;
   CHECK_THROWS_WITH(render_scene(ball(), options), "enough");
+}
+
+TEST_CASE("each tile is told of once a pass, with the samples that it then has", "[threads]") {
+  std::mutex mutex;
+  int finished = 0;  // samples of every pixel
+  std::size_t pixels = 0;
+  int wrong = 0;
+  RenderOptions options;
+  options.on_tile = [&](const Film& film, const PixelRect& tile) {
+    int fewest = std::numeric_limits<int>::max();
+    for (int y = tile.y0; y < tile.y1; ++y)
+      for (int x = tile.x0; x < tile.x1; ++x)
+        fewest = std::min(fewest, static_cast<int>(film.at(x, y).samples));
+    const std::lock_guard lock(mutex);
+    pixels += static_cast<std::size_t>(tile.width()) * static_cast<std::size_t>(tile.height());
+    if (fewest <= finished) ++wrong;
+  };
+  options.on_pass = [&](const Film& film, const FilmSamples&, const Progress& progress) {
+    CHECK(pixels == film.pixels.size());
+    finished = progress.samples_finished;
+    pixels = 0;
+  };
+  const RenderResult result = render_scene(ball(), options);
+  CHECK(finished == 50);
+  CHECK(wrong == 0);
+  CHECK(identical(result.film, render_scene(ball()).film));
 }

@@ -87,6 +87,8 @@ void add(Film& sum, const Film& other);
 
 // Means. A pixel without samples is black, as are features that the film does not keep.
 [[nodiscard]] Image radiance_of(const Film& film);
+// Of some pixels of the film, without a look at the others.
+[[nodiscard]] Image radiance_of(const Film& film, const PixelRect& rect);
 [[nodiscard]] Image albedo_of(const Film& film);
 [[nodiscard]] Image normal_of(const Film& film);
 // Distances in all three channels; 0 where nothing was hit.

@@ -31,6 +31,10 @@ struct RenderOptions {
   bool count_traversal = false;
   const std::atomic<bool>* stop = nullptr;           // set it to end early with what there is
   std::function<void(const Progress&)> on_progress;  // called from one thread at a time
+  // Called as each tile is finished by the thread that did it, so by several at a time; may read
+  // the pixels of that tile but no others. Before that, called for each tile of a started film.
+  // What it throws ends the render and is thrown on.
+  std::function<void(const Film&, const PixelRect&)> on_tile;
   // Called after a pass over the picture, by the thread that called render(), while nothing changes
   // the film. Its time counts as the render's. What it throws ends the render and is thrown on.
   std::function<void(const Film&, const FilmSamples&, const Progress&)> on_pass;
