@@ -1,11 +1,15 @@
 // However a picture's samples are split into passes, tiles and sessions, its film is the same.
 #include <algorithm>
+#include <map>
 #include <mutex>
 #include <numeric>
 #include <pah/render/session.hpp>
+#include <random>
+#include <set>
 
 #include "analytic_scenes.hpp"
 #include "catch.hpp"
+#include "support/fewer.hpp"
 
 using namespace pah;
 using namespace pah::test;
@@ -126,6 +130,46 @@ TEST_CASE("tiles may come in any order and in several calls", "[threads]") {
   CHECK(session.render_pass(odd, 3, 2) == odd);
   CHECK(same_to_the_last_bit(session.film(), whole.film));
   CHECK(session.counts().rays == whole.counts.rays);
+}
+
+TEST_CASE("a hundred random splits of the samples add up to the picture of the whole") {
+  Prepared prepared(room());
+  prepared.scene.film.width = 24;
+  prepared.scene.film.height = 16;
+  prepared.scene.film.crop.reset();
+  constexpr int samples = 16;
+  const auto part = [&](int from, int to) {
+    prepared.scene.render.samples = to;
+    RenderResult result = pah::render(prepared.world, *prepared.accelerator, prepared.scene.film,
+                                      prepared.scene.render, {}, {{}, {from, from, 0, {}}});
+    REQUIRE(result.held == FilmSamples{from, to, 0, {}});
+    return std::move(result.film);
+  };
+  const Film whole = part(0, samples);
+  const std::vector<Vec3> picture = radiance_of(whole).pixels;
+  std::map<std::pair<int, int>, Film> parts;
+  std::mt19937 random(5);
+  for (int split = 0; split < fewer_if_sanitized(100); ++split) {
+    std::set<int> ends{samples};
+    for (auto parts_left = random() % 8; parts_left > 0; --parts_left)
+      ends.insert(1 + static_cast<int>(random() % (samples - 1)));
+    std::vector<std::pair<int, int>> ranges;
+    int from = 0;
+    for (const int to : ends) ranges.emplace_back(std::exchange(from, to), to);
+    std::ranges::shuffle(ranges, random);
+    Film sum;
+    for (const auto& range : ranges) {
+      auto known = parts.find(range);
+      if (known == parts.end()) known = parts.emplace(range, part(range.first, range.second)).first;
+      if (sum.pixels.empty())
+        sum = known->second;
+      else
+        add(sum, known->second);
+    }
+    CAPTURE(split, ranges.size());
+    CHECK(mean_samples(sum) == samples);
+    REQUIRE(radiance_of(sum).pixels == picture);
+  }
 }
 
 TEST_CASE("a restored film goes on as if nothing had happened") {

@@ -8,14 +8,14 @@
 
 namespace pah::test {
 
+#ifdef PAH_SANITIZED
+inline constexpr bool sanitized = true;
+#else
+inline constexpr bool sanitized = false;
+#endif
+
 // How many samples to take: under sanitizers an eighth, which goes the same ways through the code.
 // Only for what is judged by its own standard deviation, or holds for each sample.
-constexpr int fewer_if_sanitized(int count) {
-#ifdef PAH_SANITIZED
-  return count / 8;
-#else
-  return count;
-#endif
-}
+constexpr int fewer_if_sanitized(int count) { return sanitized ? count / 8 : count; }
 
 }  // namespace pah::test
