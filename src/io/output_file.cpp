@@ -1,8 +1,11 @@
 #include "io/output_file.hpp"
 
+#include <signal.h>
 #include <unistd.h>
 
 #include <cerrno>
+#include <charconv>
+#include <chrono>
 #include <fstream>
 #include <string>
 #include <system_error>
@@ -41,6 +44,37 @@ void write_all(const fs::path& file, const fs::path& named, std::string_view tex
   fail(named, why);
 }
 
+// What comes before and after the number of the process in the name of a temporary file.
+struct TemporaryName {
+  std::string before, after;
+};
+
+TemporaryName temporary_name(const fs::path& target) {
+  return {"." + target.stem().string() + ".part", target.extension().string()};
+}
+
+// Removes what processes left that were killed as they wrote this file. One that this machine does
+// not know may be another machine's: it is given time.
+void remove_leftovers(const fs::path& target) {
+  const auto [before, after] = temporary_name(target);
+  std::error_code ignored;
+  for (fs::directory_iterator entry(target.parent_path(), ignored), end; entry != end;
+       entry.increment(ignored)) {
+    const std::string name = entry->path().filename().string();
+    if (!name.starts_with(before)) continue;
+    pid_t process = 0;
+    const auto [rest, error] =
+        std::from_chars(name.data() + before.size(), name.data() + name.size(), process);
+    if (error != std::errc() || process <= 0 || rest != name.data() + name.size() - after.size() ||
+        !name.ends_with(after))
+      continue;
+    if (::kill(process, 0) == 0 || errno != ESRCH) continue;
+    const fs::file_time_type written = fs::last_write_time(entry->path(), ignored);
+    if (!ignored && fs::file_time_type::clock::now() - written > std::chrono::minutes(1))
+      fs::remove(entry->path(), ignored);
+  }
+}
+
 }  // namespace
 
 bool is_device(const fs::path& file) {
@@ -54,8 +88,8 @@ bool is_device(const fs::path& file) {
 
 fs::path temporary_beside(const fs::path& file) {
   const fs::path target = resolved(file);
-  return target.parent_path() / ("." + target.stem().string() + ".part" +
-                                 std::to_string(::getpid()) + target.extension().string());
+  const auto [before, after] = temporary_name(target);
+  return target.parent_path() / (before + std::to_string(::getpid()) + after);
 }
 
 void check_can_create(const fs::path& file) {
@@ -76,7 +110,7 @@ void put_in_place(const fs::path& temporary, const fs::path& file) {
     error = std::make_error_code(std::errc::not_supported);
   else
     fs::rename(temporary, resolved(file), error);
-  if (!error) return;
+  if (!error) return remove_leftovers(resolved(file));
   std::error_code ignored;
   fs::remove(temporary, ignored);
   fail(file, error.message());

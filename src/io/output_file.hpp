@@ -16,7 +16,8 @@ void check_can_create(const std::filesystem::path& file);
 // A name in the same folder, of the same extension, that only this process uses.
 [[nodiscard]] std::filesystem::path temporary_beside(const std::filesystem::path& file);
 
-// Gives the finished `temporary` its name. Throws FileError, and removes it, if that fails.
+// Gives the finished `temporary` its name, and removes what is left of writes of that file that
+// were killed. Throws FileError, and removes `temporary`, if it cannot have that name.
 void put_in_place(const std::filesystem::path& temporary, const std::filesystem::path& file);
 
 // Replaces `file` as a whole; devices and pipes are written to as they are. Throws FileError.

@@ -1,3 +1,7 @@
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
 #include <cstdio>
 #include <fstream>
 #include <iterator>
@@ -29,6 +33,40 @@ TEST_CASE("a file is replaced as a whole, and nothing stays beside it") {
   pah::write_text_file("a.json", "second");
   CHECK(text_of("a.json") == "second");
   CHECK(count_files() == 1);
+}
+
+TEST_CASE("what a killed process left is removed, and nothing else") {
+  const CurrentTemporaryFolder folder;
+  const pid_t ended = ::fork();
+  if (ended == 0) ::_exit(0);
+  REQUIRE(::waitpid(ended, nullptr, 0) == ended);
+  const auto leave = [](const std::string& name, std::chrono::minutes age) {
+    std::ofstream(name) << "half";
+    fs::last_write_time(name, fs::file_time_type::clock::now() - age);
+    return name;
+  };
+  using std::chrono::minutes;
+  const std::string dead = std::to_string(ended);
+  const std::string gone = leave(".a.b.part" + dead + ".film", minutes(2));
+  const std::vector<std::string> kept{
+      leave(".a.b.part" + std::to_string(::getppid()) + ".film", minutes(2)),
+      leave(".a.b.part1.film", minutes(2)),
+      leave(".a.b.part" + dead + ".json", minutes(2)),
+      leave(".a.b.part" + dead + "x.film", minutes(2)),
+      leave(".a.b.part.film", minutes(2)),
+      leave(".a.b.part0.film", minutes(2)),
+      leave(".a.b.part-" + dead + ".film", minutes(2)),
+      leave(".a.part" + dead + ".film", minutes(2)),
+      leave("a.b.part" + dead + ".film", minutes(2))};
+  pah::write_text_file("a.b.film", "whole");
+  CHECK(!fs::exists(gone));
+  for (const std::string& name : kept) {
+    CAPTURE(name);
+    CHECK(fs::exists(name));
+  }
+  leave(gone, minutes(0));
+  pah::write_text_file("a.b.film", "whole");
+  CHECK(fs::exists(gone));
 }
 
 TEST_CASE("checking that a file can be created leaves no trace") {

@@ -1,8 +1,10 @@
 // Scenes that load: what they become.
 #include <tbb/task_arena.h>
 
+#include <map>
 #include <pah/io/load_scene.hpp>
 #include <pah/scene/metal_presets.hpp>
+#include <set>
 
 #include "catch.hpp"
 #include "io/scene/files.hpp"
@@ -35,6 +37,39 @@ DVec3 apply(const glm::dmat4x3& m, const DVec3& p) { return m * glm::dvec4(p, 1)
 void check_near(const DVec3& a, const DVec3& b) { CHECK(glm::distance(a, b) < 1e-12); }
 
 }  // namespace
+
+TEST_CASE("each file of a scene is told of before it is read, and if it is not there") {
+  const TemporaryFolder folder;
+  const std::map<std::string, std::string> texts{
+      {"mesh.obj", "mtllib a.mtl\nusemtl m\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"},
+      {"a.mtl", "newmtl m\nmap_Kd named.tga\n"},
+      {"sky.tga", test::tga(1, 1, "abc")},
+      {"paint.tga", test::tga(1, 1, "abc")}};
+  write_text(folder / "named.tga", test::tga(1, 1, "abc"));
+  std::set<std::string> told;
+  LoadOptions options;
+  options.on_file = [&](const std::filesystem::path& file) {
+    CHECK(file.parent_path() == folder.path());
+    const std::string name = file.filename().string();
+    told.insert(name);
+    // It can still be made.
+    if (const auto text = texts.find(name); text != texts.end()) write_text(file, text->second);
+  };
+  const std::string text =
+      "textures: {paint: {type: image, file: paint.tga}}\n"
+      "meshes: [{file: mesh.obj, use: [materials]}]\n"
+      "lights: [{type: environment, image: sky.tga}]\n";
+  const std::filesystem::path scene = write_text(folder / "scene.yaml", text);
+  CHECK(load_scene(scene, options).warnings.empty());
+  const std::set<std::string> all{"a.mtl", "mesh.obj", "named.tga", "paint.tga", "sky.tga"};
+  CHECK(told == all);
+
+  told.clear();
+  write_text(scene,
+             text + "x-more: 1\nmaterials: {m: {type: diffuse, reflectance: {image: no.tga}}}\n");
+  CHECK_THROWS_AS(load_scene(scene, options), SceneError);
+  CHECK(told.contains("no.tga"));
+}
 
 TEST_CASE("a scene with nothing in it has every default") {
   const Scene scene = load("x-nothing: 1\nmeshes:\n").scene;
