@@ -234,7 +234,7 @@ CLI::App* add_compare(CLI::App& app, CompareArguments& arguments) {
 
 CLI::App* add_merge(CLI::App& app, MergeArguments& arguments) {
   CLI::App* merge = app.add_subcommand(
-      "merge", "Add the samples of .film files of one picture, rendered by --samples");
+      "merge", "Put .film files of one picture together, rendered by --samples or --crop");
   merge->get_formatter()->column_width(25);
   merge->add_option("PART", arguments.parts, ".film files, in any order")
       ->required()

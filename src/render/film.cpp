@@ -40,15 +40,31 @@ DVec3 variance_of_mean(const FilmPixel& pixel) {
 
 }  // namespace
 
+Film black_film(const PixelRect& rect, bool with_features) {
+  Film film;
+  film.rect = rect;
+  film.pixels.resize(static_cast<std::size_t>(rect.width()) *
+                     static_cast<std::size_t>(rect.height()));
+  if (with_features) film.features.resize(film.pixels.size());
+  return film;
+}
+
 void add(Film& sum, const Film& other) {
-  if (other.pixels.size() != sum.pixels.size() || other.features.size() != sum.features.size())
+  const PixelRect& all = sum.rect;
+  const PixelRect& some = other.rect;
+  if (some.x0 < all.x0 || some.x1 > all.x1 || some.y0 < all.y0 || some.y1 > all.y1 ||
+      sum.features.empty() != other.features.empty())
     throw std::invalid_argument("films to be added differ in what they hold");
-  for (std::size_t i = 0; i < sum.pixels.size(); ++i) sum.pixels[i].add(other.pixels[i]);
-  for (std::size_t i = 0; i < sum.features.size(); ++i) {
-    sum.features[i].albedo += other.features[i].albedo;
-    sum.features[i].normal += other.features[i].normal;
-    sum.features[i].depth += other.features[i].depth;
-  }
+  for (int y = some.y0; y < some.y1; ++y)
+    for (int x = some.x0; x < some.x1; ++x) {
+      sum.at(x, y).add(other.at(x, y));
+      FilmFeatures* const features = sum.features_at(x, y);
+      if (features == nullptr) continue;
+      const FilmFeatures& more = *other.features_at(x, y);
+      features->albedo += more.albedo;
+      features->normal += more.normal;
+      features->depth += more.depth;
+    }
 }
 
 bool keeps_features(const FilmSettings& settings) {

@@ -19,15 +19,6 @@ constexpr int tile_size = 32;
 constexpr std::size_t batch_capacity =
     static_cast<std::size_t>(tile_size) * tile_size * RenderSession::batch_samples;
 
-Film black_film(const FilmSettings& settings) {
-  Film film;
-  film.rect = pixels_of(settings);
-  film.pixels.resize(static_cast<std::size_t>(film.rect.width()) *
-                     static_cast<std::size_t>(film.rect.height()));
-  if (keeps_features(settings)) film.features.resize(film.pixels.size());
-  return film;
-}
-
 std::vector<PixelRect> tiles_of(const PixelRect& rect) {
   std::vector<PixelRect> tiles;
   for (int y = rect.y0; y < rect.y1; y += tile_size) {
@@ -86,7 +77,7 @@ std::string described(const PixelRect& rect) {
 struct RenderSession::Impl {
   Impl(const World& world, const Accelerator& accelerator, const FilmSettings& film_settings,
        const RenderSettings& settings, const SessionOptions& options)
-      : film(black_film(film_settings)),
+      : film(black_film(pixels_of(film_settings), keeps_features(film_settings))),
         tiles(tiles_of(film.rect)),
         textures(world.textures),
         tracer(world, accelerator, textures, film_settings, settings, options.count_traversal),

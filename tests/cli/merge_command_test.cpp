@@ -121,3 +121,40 @@ TEST_CASE("parts that overlap, are missing or of other renders are named") {
   pah::write_film("b.film", film.origin, {4, 8, 2, {0}}, film.film);
   check_refused({"a.film", "b.film"}, "b.film was stopped in the midst of a pass");
 }
+
+TEST_CASE("parts by crops, and by samples besides, give the picture of the whole") {
+  const CurrentTemporaryFolder folder;
+  write_file("scene.yaml", small_scene);
+  const Words layers{"-D", "film.channels=[albedo,normal,depth]"};
+  const auto with_layers = [&](Words words) {
+    words.insert(words.end(), layers.begin(), layers.end());
+    return words;
+  };
+  succeed(with_layers({"scene.yaml", "-o", "whole.exr", "--spp", "6"}));
+  // Three, of which one spans the picture; the last in two.
+  render_part("top.film", "0:6", with_layers({"--crop", "0,32,0,9"}));
+  render_part("left.film", "0:6", with_layers({"--crop", "0,20,9,24"}));
+  render_part("right_a.film", "0:2", with_layers({"--crop", "20,32,9,24"}));
+  render_part("right_b.film", "2:6", with_layers({"--crop", "20,32,9,24"}));
+  succeed({"merge", "right_b.film", "left.film", "top.film", "right_a.film", "-o", "merged.exr"});
+  CHECK(same_picture("merged.exr", "whole.exr"));
+  CHECK(nearly_same_layers("merged.exr", "whole.exr"));
+  // In steps: what was merged is one part.
+  succeed({"merge", "right_a.film", "right_b.film", "-o", "right.film"});
+  const Outcome bottom = run({"merge", "right.film", "left.film", "-o", "bottom.film"});
+  CHECK(bottom.exit_code == 0);
+  CHECK(contains(bottom.err, "these are the pixels 0,32,9,24 of 32 x 24\n"));
+  succeed({"merge", "bottom.film", "top.film", "-o", "merged.film"});
+  CHECK(pah::read_film("merged.film").samples == pah::FilmSamples{0, 6, 0, {}});
+  succeed({"merge", "merged.film", "-o", "merged.png"});
+  succeed(with_layers({"scene.yaml", "-o", "whole.png", "--spp", "6", "--quiet"}));
+  CHECK(same_picture("merged.png", "whole.png"));
+
+  check_refused({"top.film", "left.film"},
+                "the pixels 20,32,9,24 are missing; render what is missing by --crop 20,32,9,24");
+  check_refused({"top.film", "left.film", "right_a.film"},
+                "right_a.film has samples 0:2, and top.film has 0:6; every pixel needs as many");
+  render_part("wide.film", "0:6", with_layers({"--crop", "12,32,9,24"}));
+  check_refused({"top.film", "left.film", "wide.film"},
+                "left.film and wide.film overlap: both have the pixels 12,20,9,24");
+}

@@ -64,6 +64,9 @@ struct Film {
   [[nodiscard]] FilmFeatures* features_at(int x, int y) {
     return features.empty() ? nullptr : &features[index(x, y)];
   }
+  [[nodiscard]] const FilmFeatures* features_at(int x, int y) const {
+    return features.empty() ? nullptr : &features[index(x, y)];
+  }
   [[nodiscard]] std::size_t bytes() const {
     return pixels.size() * sizeof(FilmPixel) + features.size() * sizeof(FilmFeatures);
   }
@@ -75,7 +78,10 @@ struct Film {
   }
 };
 
-// Adds other samples of the same pixels. The picture is the same to the last bit however samples
+// Nothing yet of these pixels.
+[[nodiscard]] Film black_film(const PixelRect& rect, bool with_features);
+
+// Adds other samples of the same pixels, or of some of them. The picture is the same to the last bit however samples
 // are split and whatever the order; features and the variance are within the rounding of doubles.
 void add(Film& sum, const Film& other);
 
