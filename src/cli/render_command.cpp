@@ -1,8 +1,10 @@
 #include "cli/render_command.hpp"
 
 #include <fmt/format.h>
+#include <sys/resource.h>
 #include <tbb/global_control.h>
 #include <tbb/task_arena.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
@@ -136,6 +138,14 @@ void rethrow_failure(const std::shared_future<void>& task) {
   if (is_done(task)) task.get();
 }
 
+// What writes the picture is needed last. A preview is to show something soon: there it gets what
+// time the structures leave, at some cost to the whole.
+void load_in_background(bool with_least_priority) {
+  constexpr int least = 19;
+  if (with_least_priority) (void)::setpriority(PRIO_PROCESS, static_cast<id_t>(::gettid()), least);
+  load_image_library();
+}
+
 PictureFormat format_of(const RenderArguments& arguments) {
   return {arguments.half, arguments.png_bits.value_or(8)};
 }
@@ -260,7 +270,8 @@ ExitCode run_render(const RenderArguments& arguments, const RenderHooks& hooks) 
   scene.instances = {};
 
   // Takes half a second, beside the work: on a thread of its own if there is one to be had.
-  const std::shared_future<void> loading = std::async(load_image_library).share();
+  const std::shared_future<void> loading =
+      std::async(load_in_background, arguments.preview).share();
 
   RenderReport report;
   report.seconds.load = total.seconds();
