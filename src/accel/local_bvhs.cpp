@@ -15,6 +15,7 @@
 #include <variant>
 
 #include "accel/build_local.hpp"
+#include "accel/top_level.hpp"
 #include "geometry/mix_bits.hpp"
 #include "geometry/ray_box.hpp"
 
@@ -35,6 +36,9 @@ struct Area {
   // Up to which t the local BVH's answer is certain; nothing if the ray does not start inside.
   [[nodiscard]] std::optional<float> reach(const Ray& ray, const Aabb& scene) const {
     if (!contains(region, ray.origin)) return {};
+    return reach_from_inside(ray, scene);
+  }
+  [[nodiscard]] float reach_from_inside(const Ray& ray, const Aabb& scene) const {
     constexpr float everywhere = std::numeric_limits<float>::infinity();
     if (holds_scene || ends_at_eye(ray)) return everywhere;
     const float exit = exit_distance(region, ray);
@@ -104,7 +108,11 @@ class LocalBvhsOverGlobal final : public LocalBvhs {
     for (const LocalArea& area : areas) add(area, triangles, config);
     order_.resize(areas_.size());
     std::iota(order_.begin(), order_.end(), 0U);
-    std::ranges::sort(order_, {}, [&](std::uint32_t i) { return std::pair(bundle_of(i), i); });
+    const auto cost = [&](std::uint32_t i) { return reports_[i].predicted_cost; };
+    std::ranges::sort(order_, {}, [&](std::uint32_t i) { return std::pair(cost(i), i); });
+    top_level_ = make_top_level(config.top_level);
+    direction_tolerance_ = config.top_level.direction_tolerance;
+    std::ranges::stable_sort(order_, {}, [&](std::uint32_t i) { return bundle_of(i); });
   }
 
   void closest_hit(std::span<const Ray> rays, std::span<Hit> hits,
@@ -139,13 +147,17 @@ class LocalBvhsOverGlobal final : public LocalBvhs {
     AcceleratorMemory memory{.global_bvh = global_.memory_bytes()};
     for (const LocalBvhReport& report : reports_) memory.local_bvhs += report.bytes;
     memory.top_level = areas_.capacity() * sizeof(Area) + order_.capacity() * sizeof(order_[0]);
+    if (const auto* list = std::get_if<AreaList>(&top_level_))
+      memory.top_level += list->memory_bytes();
+    if (const auto* octree = std::get_if<AreaOctree>(&top_level_))
+      memory.top_level += octree->memory_bytes();
     return memory;
   }
 
   [[nodiscard]] const std::vector<LocalBvhReport>& reports() const override { return reports_; }
 
   [[nodiscard]] std::optional<std::size_t> area_of(const Ray& ray) const override {
-    const Assignment assigned = ray.bundle == no_bundle ? Assignment{} : assign(ray);
+    const Assignment assigned = assign(ray);
     return assigned.area == the_global_bvh ? std::nullopt
                                            : std::optional<std::size_t>(assigned.area);
   }
@@ -207,8 +219,40 @@ class LocalBvhsOverGlobal final : public LocalBvhs {
     areas_.push_back(std::move(area));
   }
 
-  // The first area of the ray's bundle that holds its origin.
+  // In the order of the areas' costs.
+  [[nodiscard]] TopLevel make_top_level(const TopLevelConfig& config) const {
+    if (config.kind == TopLevelKind::none || areas_.empty()) return {};
+    std::vector<Region> regions;
+    for (const Area& area : areas_) regions.push_back(area.region);
+    if (config.kind == TopLevelKind::list) return AreaList(regions, order_);
+    return AreaOctree(regions, order_, config.octree_depth);
+  }
+
   [[nodiscard]] Assignment assign(const Ray& ray) const {
+    if (ray.bundle != no_bundle) {
+      const Assignment by_bundle = assign_by_bundle(ray);
+      if (by_bundle.area != the_global_bvh) return by_bundle;
+    }
+    return std::visit([&](const auto& top_level) { return assign_by(top_level, ray); }, top_level_);
+  }
+
+  [[nodiscard]] static Assignment assign_by(const std::monostate& /*none*/, const Ray& /*ray*/) {
+    return {};
+  }
+  // Cells are no exact borders of areas: an origin has to be in the area itself.
+  [[nodiscard]] Assignment assign_by(const auto& top_level, const Ray& ray) const {
+    Assignment assigned;
+    top_level.visit(ray.origin, [&](const AreaCandidate& candidate) {
+      const Area& area = areas_[candidate.area];
+      if (!candidate.certain && !contains(area.region, ray.origin)) return false;
+      if (!is_affine(area.declared.area, ray, direction_tolerance_)) return false;
+      assigned = {candidate.area, area.reach_from_inside(ray, bounds_)};
+      return true;
+    });
+    return assigned;
+  }
+
+  [[nodiscard]] Assignment assign_by_bundle(const Ray& ray) const {
     const auto first = std::lower_bound(
         order_.begin(), order_.end(), ray.bundle,
         [&](std::uint32_t i, std::uint32_t bundle) { return bundle_of(i) < bundle; });
@@ -224,7 +268,7 @@ class LocalBvhsOverGlobal final : public LocalBvhs {
   void answer(std::span<const Ray> batch, TraversalCounts* counts, const Trace& trace) const {
     std::array<Assignment, batch_size> assigned;
     for (std::size_t i = 0; i < batch.size(); ++i) {
-      if (batch[i].bundle != no_bundle) assigned[i] = assign(batch[i]);
+      assigned[i] = assign(batch[i]);
     }
     Lanes open;
     std::array<bool, batch_size> done{};
@@ -281,7 +325,9 @@ class LocalBvhsOverGlobal final : public LocalBvhs {
   Aabb bounds_;  // of all triangles, padded
   Bvh global_;
   std::vector<Area> areas_;
-  std::vector<std::uint32_t> order_;  // areas by bundle
+  std::vector<std::uint32_t> order_;  // areas by bundle, then by cost
+  TopLevel top_level_;
+  double direction_tolerance_ = 0;
   std::vector<LocalBvhReport> reports_;
   mutable std::vector<Counters> counters_;
 };

@@ -10,12 +10,29 @@
 
 namespace pah {
 
+// How the areas that hold the origin of a ray without a bundle are found (thesis, 3.3 and 5.5).
+enum class TopLevelKind : std::uint8_t {
+  none,   // not at all: such rays are asked of the global BVH
+  list,   // by the boxes around all areas
+  octree  // by cells that list the areas which overlap them
+};
+
+struct TopLevelConfig {
+  TopLevelKind kind = TopLevelKind::none;
+  // How often the octree's cells are halved, 1 to 10; 0: as a megabyte of nodes allows, 7 at most.
+  int octree_depth = 0;
+  // Only rays that run along an area's rays, either way, up to so many radians are asked of it.
+  // Like all of this it changes speed only.
+  double direction_tolerance = 0;
+};
+
 struct LocalConfig {
   Heuristic heuristic = Heuristic::surface_area;
   SplitAxis split = SplitAxis::best;
   // SplitAxis::facing: axes of a lower facing quality are split only if no axis reaches it.
   double facing_threshold = 0.5;
   BuildConfig build;
+  TopLevelConfig top_level;
 };
 
 // An area and the bundle whose rays it is for. World coordinates.
@@ -54,7 +71,9 @@ class LocalBvhs : public Accelerator {
   [[nodiscard]] virtual std::optional<std::size_t> area_of(const Ray& ray) const = 0;
 };
 
-// Rays of no area's bundle, and those that an area cannot answer for certain, go to the global BVH.
+// Of the areas that may answer a ray the one of the least predicted cost does: of its bundle or, if
+// there is none and a top level, those that hold its origin and whose rays run along it. Rays of no
+// area, and those that an area cannot answer for certain, go to the global BVH.
 [[nodiscard]] std::unique_ptr<LocalBvhs> make_local_bvhs(Triangles triangles,
                                                          const std::vector<LocalArea>& areas,
                                                          const LocalConfig& config = {});
