@@ -34,7 +34,9 @@ void measure_global(benchmark::State& state, const MeshScene& scene, const Make&
 
 void measure_local(benchmark::State& state, const MeshScene& scene, const LocalArea& area,
                    Heuristic heuristic) {
-  const LocalConfig config{heuristic, SplitAxis::longest, 0.5, {}};
+  LocalConfig config;
+  config.heuristic = heuristic;
+  config.split = SplitAxis::longest;
   tbb::task_arena arena(1);
   std::uint64_t triangles = 0, bytes = 0;
   for (auto _ : state) {

@@ -21,8 +21,10 @@ std::unique_ptr<Accelerator> make_grids(const MeshScene& scene) {
 }
 
 std::unique_ptr<Accelerator> make_local(const MeshScene& scene) {
-  return make_local_bvhs(scene.world.triangles(), scene.areas,
-                         {Heuristic::projected_area, SplitAxis::longest, 0.5, {}});
+  LocalConfig config;
+  config.heuristic = Heuristic::projected_area;
+  config.split = SplitAxis::longest;
+  return make_local_bvhs(scene.world.triangles(), scene.areas, config);
 }
 
 template <EmbreeRays rays>

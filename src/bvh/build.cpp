@@ -71,6 +71,14 @@ template <typename Value, typename Add, typename Join>
       [](Box4& a, const Box4& b) { a.extend(b); });
 }
 
+// A split, and what its items were sorted into to find it.
+struct Found {
+  Binning binning;
+  Bins bins;
+  std::vector<Bins> chunks;  // of large ranges
+  Split split;
+};
+
 // Decides where to split, and sorts by it.
 class Splitter {
  public:
@@ -78,8 +86,18 @@ class Splitter {
       : bins_(std::clamp(config.bins, BuildConfig::min_bins, BuildConfig::max_bins)),
         max_leaf_(std::max(config.max_leaf, 1U)),
         side_by_side_(std::max(config.side_by_side, 1U)),
-        heuristic_(heuristic),
-        by_area_(heuristic.by_area()) {}
+        leaves_(config.leaves),
+        last_level_(config.leaves.levels > 0 ? std::min(config.leaves.levels, max_cost_depth)
+                                             : max_cost_depth),
+        heuristic_(heuristic) {}
+
+  // Before any split.
+  void begin(const Box4& root) {
+    if (leaves_.cost > 0 || leaves_.area > 0 || leaves_.probability > 0)
+      whole_ = heuristic_.whole > 0
+                   ? heuristic_.whole
+                   : static_cast<double>(measure_of(heuristic_.measure, root.aabb()));
+  }
 
   // Nothing: a leaf.
   [[nodiscard, gnu::noinline]] std::optional<Parts> split(const Range& range, const Box4& box,
@@ -88,33 +106,94 @@ class Splitter {
     const bool leaf_allowed = range.count <= max_leaf_;
     if (leaf_allowed && leaf_cost(range.count, side_by_side_) <= 2 * box_cost) return std::nullopt;
     if (range.count == 1) return std::nullopt;
+    if (leaf_allowed && is_leaf_by_rule(range.count, box)) return std::nullopt;
     const Box4 centroids = centroids_of(range.span());
-    if (depth >= max_cost_depth) {
+    if (depth >= last_level_) {
       if (leaf_allowed) return std::nullopt;
       return halve(range, centroids);
     }
 
-    // Few items need few bins.
-    const std::uint32_t bins_used = std::min(bins_, std::max(4U, 2 * range.count));
-    const Binning binning(centroids, bins_used, heuristic_.axes(box.aabb()));
-    Bins bins(bins_used);
-    const std::vector<Bins> chunks = chunks_of(range, binning);
-    if (chunks.empty()) bins.add(range.span(), binning);
-    for (const Bins& chunk : chunks) bins.add(chunk);
-    const Split best = by_area_ ? bins.cheapest_by_area(binning, side_by_side_)
-                                : bins.cheapest(binning, heuristic_.measure, side_by_side_);
+    const BuildHeuristic& heuristic =
+        depth >= heuristic_.deeper_from ? *heuristic_.deeper : heuristic_;
+    const Found found = heuristic.search
+                            ? search(range, box, centroids, heuristic)
+                            : find(range, centroids, heuristic.axes(box.aabb()), heuristic);
+    const Split& best = found.split;
     if (leaf_allowed) {
-      const float measure = measure_of(heuristic_.measure, box.aabb());
+      const float measure = measure_of(heuristic.measure, box.aabb());
       const float split_cost = 2 * box_cost * measure + best.cost;
       if (!(split_cost < leaf_cost(range.count, side_by_side_) * measure)) return std::nullopt;
     }
     if (best.bin == 0) return halve(range, centroids);
-    const SplitBoxes sides = bins.at(best);
-    partition(range, binning.side_of(best), sides.left_count, best, chunks);
+    const SplitBoxes sides = found.bins.at(best);
+    partition(range, found.binning.side_of(best), sides.left_count, best, found.chunks);
     return parts_of(range.moved(), sides);
   }
 
  private:
+  [[nodiscard]] bool is_leaf_by_rule(std::uint32_t count, const Box4& box) const {
+    if (count < leaves_.triangles) return true;
+    if (!(whole_ > 0)) return false;
+    const double measure = measure_of(heuristic_.measure, box.aabb());
+    const double probability = measure / whole_;
+    return measure * heuristic_.square_meters < leaves_.area || probability < leaves_.probability ||
+           probability * double{leaf_cost(count, side_by_side_)} < leaves_.cost;
+  }
+
+  // The cheapest split of the axes.
+  [[nodiscard]] Found find(const Range& range, const Box4& centroids, AxisMask axes,
+                           const BuildHeuristic& heuristic) const {
+    // Few items need few bins.
+    const std::uint32_t bins_used = std::min(bins_, std::max(4U, 2 * range.count));
+    const Binning binning(centroids, bins_used, axes);
+    Found found{binning, Bins(bins_used), chunks_of(range, binning), {}};
+    if (found.chunks.empty()) found.bins.add(range.span(), binning);
+    for (const Bins& chunk : found.chunks) found.bins.add(chunk);
+    found.split = heuristic.by_area()
+                      ? found.bins.cheapest_by_area(binning, side_by_side_)
+                      : found.bins.cheapest(binning, heuristic.measure, side_by_side_);
+    return found;
+  }
+
+  [[nodiscard]] Found search(const Range& range, const Box4& box, const Box4& centroids,
+                             const BuildHeuristic& heuristic) const {
+    const AxisSearch& search = *heuristic.search;
+    const float whole = measure_of(heuristic.measure, box.aabb());
+    std::optional<Found> best;
+    const auto ratio = [&] {
+      if (!best || best->split.bin == 0) return std::numeric_limits<double>::infinity();
+      const SplitBoxes sides = best->bins.at(best->split);
+      return (double{measure_of(heuristic.measure, sides.left.aabb())} +
+              double{measure_of(heuristic.measure, sides.right.aabb())}) /
+             double{whole};
+    };
+    const auto try_axes = [&](AxisMask axes) {
+      Found found = find(range, centroids, axes, heuristic);
+      if (!best || found.split.cost < best->split.cost) best.emplace(std::move(found));
+    };
+    AxisMask good = 0, tried = 0;
+    const std::array<RatedAxis, 3> rated = search.rate(box.aabb());
+    for (const RatedAxis& one : rated)
+      if (one.quality >= search.threshold) good |= 1U << static_cast<unsigned>(one.axis);
+    if (search.excellent > 0) {
+      for (const RatedAxis& one : rated) {
+        const AxisMask axis = 1U << static_cast<unsigned>(one.axis);
+        if ((good & axis) == 0 || ratio() <= search.excellent) break;
+        try_axes(axis);
+        tried |= axis;
+      }
+      if (ratio() <= search.excellent) return std::move(*best);
+    } else if (good != 0) {  // nothing ends the search before
+      try_axes(good);
+      tried = good;
+    }
+    const AxisMask longest = longest_axis(box.aabb());
+    if (good != all_axes && !(ratio() <= search.acceptable) && (tried & longest) == 0)
+      try_axes(longest);
+    if (!best) try_axes(longest);
+    return std::move(*best);
+  }
+
   // Nothing for small ranges: what is one chunk need not be joined.
   [[nodiscard]] static std::vector<Bins> chunks_of(const Range& range, const Binning& binning) {
     if (range.count < 2 * pass_grain) return {};
@@ -175,8 +254,10 @@ class Splitter {
   std::uint32_t bins_;
   std::uint32_t max_leaf_;
   std::uint32_t side_by_side_;
+  LeafRules leaves_;
+  std::uint32_t last_level_;
   const BuildHeuristic& heuristic_;
-  bool by_area_;
+  double whole_ = 0;  // the measure of what all rays hit, where a rule asks
 };
 
 using Node = BinaryTree::Node;
@@ -198,7 +279,9 @@ class Builder {
     const auto count = static_cast<std::uint32_t>(items.size());
     tree_.order.resize(count);
     Piece root;
-    grow(root, {items.data(), room.data(), 0, count}, box_of(items), 0);
+    const Box4 box = box_of(items);
+    splitter_.begin(box);
+    grow(root, {items.data(), room.data(), 0, count}, box, 0);
     tasks_.wait();
     tree_.nodes.reserve(nodes_in(root));
     append(root, tree_.nodes.emplace_back());

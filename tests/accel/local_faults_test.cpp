@@ -140,24 +140,28 @@ TEST_CASE("A tree by the projected area is cheaper for its bundle than one by th
   CHECK(cost_by(Heuristic::projected_area) < 0.8 * cost_by(Heuristic::surface_area));
 }
 
-TEST_CASE("Axes that face the bundle well enough may be split, and no others") {
+TEST_CASE("Axes are rated by how well they face the bundle") {
   LocalConfig config;
   config.split = SplitAxis::facing;
   const Aabb box{{-1, -1, 3}, {1, 1, 5}};
-  const auto axes = [&](const DVec3& direction, double threshold, const Aabb& of) {
-    config.facing_threshold = threshold;
-    return bundle_heuristic(make_plane_area(DVec3(0), direction, DVec2(9), 9), config).axes(of);
+  const auto rated = [&](const DVec3& direction, const Aabb& of) {
+    const auto heuristic =
+        bundle_heuristic(make_plane_area(DVec3(0), direction, DVec2(9), 9), config);
+    REQUIRE(heuristic.search);
+    return heuristic.search->rate(of);
   };
-  CHECK(axes({0, 0, 1}, 0.5, box) == 0b011U);
-  CHECK(axes({0, 1, 0}, 0.5, box) == 0b101U);
-  CHECK(axes({1, 0, 0}, 0.5, box) == 0b110U);
-  // 1 - 0.6 / 1.4 = 0.57 and 1 - 0.8 / 1.4 = 0.43.
-  CHECK(axes({0.6, 0.8, 0}, 0.5, box) == 0b101U);
-  CHECK(axes({0.6, 0.8, 0}, 0.4, box) == 0b111U);
-  CHECK(axes({0.6, 0.8, 0}, 0.6, box) == 0b100U);
-  // A box without extent along the axes that face best is split along the next.
-  CHECK(axes({0, 0, 1}, 0.5, {{0, -1, 3}, {0, 1, 5}}) == 0b010U);
-  CHECK(axes({0.6, 0.8, 0}, 0.99, {{-1, -1, 3}, {1, 1, 3}}) == 0b100U);
+  const auto check = [&](const std::array<RatedAxis, 3>& axes, const std::array<int, 3>& order,
+                         const std::array<double, 3>& qualities) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      CHECK(axes[i].axis == order[i]);
+      CHECK(axes[i].quality == Approx(qualities[i]).margin(1e-12));
+    }
+  };
+  check(rated({0, 0, 1}, box), {0, 1, 2}, {1, 1, 0});
+  check(rated({0, 1, 0}, box), {0, 2, 1}, {1, 1, 0});
+  check(rated({0.6, 0.8, 0}, box), {2, 0, 1}, {1, 1 - 0.6 / 1.4, 1 - 0.8 / 1.4});
+  // An axis without extent cannot be split.
+  check(rated({0, 0, 1}, {{0, -1, 3}, {0, 1, 5}}), {1, 2, 0}, {1, 0, -1});
 }
 
 TEST_CASE("The nearest of many walls is found by a look at few") {

@@ -154,8 +154,8 @@ TEST_CASE("A heuristic decides which axis is split") {
     }
   }
   const auto only_x = [](const Aabb&) -> AxisMask { return 0b001; };
-  const BinaryTree tree =
-      build_tree(boxes, {.max_leaf = 4, .side_by_side = 1}, {each_box(SurfaceArea{}), only_x});
+  const BinaryTree tree = build_tree(boxes, {.max_leaf = 4, .side_by_side = 1, .leaves = {}},
+                                     {each_box(SurfaceArea{}), only_x});
   REQUIRE(tree.nodes.size() > 32);
   std::uint32_t overlaps = 0;
   for (const BinaryTree::Node& node : tree.nodes) {

@@ -29,8 +29,15 @@ struct TopLevelConfig {
 struct LocalConfig {
   Heuristic heuristic = Heuristic::surface_area;
   SplitAxis split = SplitAxis::best;
-  // SplitAxis::facing: axes of a lower facing quality are split only if no axis reaches it.
+  // SplitAxis::facing (thesis, algorithm 5.1): axes of a lower facing quality are not split. If
+  // some are lower and no split so far has a ratio of at most `acceptable_ratio`, the longest axis
+  // is tried, too. A split of at most `excellent_ratio` ends the search. The ratio is the sum of
+  // the chances of both halves to be hit over the node's: 1 if no ray meets both, 2 if all do.
   double facing_threshold = 0.5;
+  double acceptable_ratio = 2;
+  double excellent_ratio = 0;
+  // From this depth on nodes are built by SAH and their longest axis.
+  std::uint32_t non_fallback_levels = 0xFFFFFFFFU;
   BuildConfig build;
   TopLevelConfig top_level;
 };

@@ -53,6 +53,16 @@ struct SurfaceArea {
   }
 };
 
+// Nodes that become leaves before a split of them is sought, as far as leaves may be so large
+// (thesis, 5.1). Where a rule is 0 there is none.
+struct LeafRules {
+  double cost = 0;         // less: the chance that a ray hits the node, times its cost as a leaf
+  double area = 0;         // less m^2: of its surface, or of a bundle's cross-section that meets it
+  double probability = 0;  // hit with less chance, in [0, 1], by a ray that the tree is for
+  std::uint32_t triangles = 0;  // fewer
+  std::uint32_t levels = 0;     // so many above it; larger nodes are halved from there on
+};
+
 struct BuildConfig {
   // Per axis, min_bins to max_bins: the borders between bins are the candidates for a split.
   static constexpr std::uint32_t min_bins = 2, max_bins = 64;
@@ -62,6 +72,7 @@ struct BuildConfig {
   std::uint32_t max_leaf = 8;
   // Triangles tested at a time, at least 1.
   std::uint32_t side_by_side = 4;
+  LeafRules leaves;
 };
 
 }  // namespace pah

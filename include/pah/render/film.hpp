@@ -81,8 +81,9 @@ struct Film {
 // Nothing yet of these pixels.
 [[nodiscard]] Film black_film(const PixelRect& rect, bool with_features);
 
-// Adds other samples of the same pixels, or of some of them. The picture is the same to the last bit however samples
-// are split and whatever the order; features and the variance are within the rounding of doubles.
+// Adds other samples of the same pixels, or of some of them. The picture is the same to the last
+// bit however samples are split and whatever the order; features and the variance are within the
+// rounding of doubles.
 void add(Film& sum, const Film& other);
 
 // Whether a film keeps features: some layer that the settings ask for takes them.
