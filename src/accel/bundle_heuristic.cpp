@@ -33,9 +33,9 @@ BuildHeuristic bundle_heuristic(const InfluenceArea& area, const LocalConfig& co
   }
   if (config.split == SplitAxis::longest) heuristic.axes = longest_axis;
   if (config.split == SplitAxis::facing)
-    heuristic.search =
-        AxisSearch{[area](const Aabb& box) { return rate_axes(area, box); },
-                   config.facing_threshold, config.excellent_ratio, config.acceptable_ratio};
+    heuristic.search = AxisSearch{[area](const Aabb& box) { return rate_axes(area, box); },
+                                  config.facing.threshold, config.facing.excellent_ratio,
+                                  config.facing.acceptable_ratio};
   if (config.non_fallback_levels != BuildHeuristic::never) {
     BuildHeuristic fallback = surface_area_heuristic();
     fallback.axes = longest_axis;

@@ -200,27 +200,27 @@ TEST_CASE(
   trees.config.split = SplitAxis::facing;
   constexpr std::uint32_t top = 3;
   CHECK_FALSE(any(split_axes(trees.tree(), top), 1));
-  trees.config.facing_threshold = 0.1;
+  trees.config.facing.threshold = 0.1;
   const BinaryTree all = trees.tree();
   CHECK(any(split_axes(all, top), 1));
   // None is good enough: the longest axis, y in a region that is higher than wide.
   Trees tall(make_plane_area(DVec3(0, 9, 0), DVec3(0.125, -1, 0.125), DVec2(3), 18));
   tall.config.split = SplitAxis::facing;
-  tall.config.facing_threshold = 1;
+  tall.config.facing.threshold = 1;
   CHECK(split_axes(tall.tree(), 0) == std::vector<int>{1});
-  tall.config.facing_threshold = 0.5;
+  tall.config.facing.threshold = 0.5;
   CHECK(split_axes(tall.tree(), 0) != std::vector<int>{1});
   // No split is acceptable: the longest is tried, too, and is the cheapest by SAH.
-  tall.config.acceptable_ratio = 0;
+  tall.config.facing.acceptable_ratio = 0;
   CHECK(split_axes(tall.tree(), 0) == std::vector<int>{1});
 }
 
 TEST_CASE("an excellent split ends the search for a better one") {
   Trees trees(make_plane_area(DVec3(0, 9, 0), DVec3(0.05, -1, 0.1), DVec2(6, 12), 18));
   trees.config.split = SplitAxis::facing;
-  trees.config.facing_threshold = 0.1;
+  trees.config.facing.threshold = 0.1;
   const auto axes_with = [&](double excellent) {
-    trees.config.excellent_ratio = excellent;
+    trees.config.facing.excellent_ratio = excellent;
     return split_axes(trees.tree(), 3);
   };
   // Any split ends it: only the axis that faces best, x, but where it has no extent left.

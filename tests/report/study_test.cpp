@@ -86,7 +86,7 @@ TEST_CASE("Relative costs are relative to what they say") {
     if (row.parameter == "bins" && row.value == BuildConfig{}.bins) CHECK(row.over_default == 1);
     if (row.parameter == "max_leaf" && row.value == BuildConfig{}.max_leaf)
       CHECK(row.over_default == 1);
-    if (row.parameter == "facing_threshold" && row.value == LocalConfig{}.facing_threshold)
+    if (row.parameter == "facing_threshold" && row.value == FacingRules{}.threshold)
       CHECK(row.over_default == 1);
   }
 }

@@ -6,36 +6,15 @@
 #include <pah/accel/accelerator.hpp>
 #include <pah/bvh/build_config.hpp>
 #include <pah/influence/influence_area.hpp>
+#include <pah/influence/top_level.hpp>
 #include <vector>
 
 namespace pah {
 
-// How the areas that hold the origin of a ray without a bundle are found (thesis, 3.3 and 5.5).
-enum class TopLevelKind : std::uint8_t {
-  none,   // not at all: such rays are asked of the global BVH
-  list,   // by the boxes around all areas
-  octree  // by cells that list the areas which overlap them
-};
-
-struct TopLevelConfig {
-  TopLevelKind kind = TopLevelKind::none;
-  // How often the octree's cells are halved, 1 to 10; 0: as a megabyte of nodes allows, 7 at most.
-  int octree_depth = 0;
-  // Only rays that run along an area's rays, either way, up to so many radians are asked of it.
-  // Like all of this it changes speed only.
-  double direction_tolerance = 0;
-};
-
 struct LocalConfig {
   Heuristic heuristic = Heuristic::surface_area;
   SplitAxis split = SplitAxis::best;
-  // SplitAxis::facing (thesis, algorithm 5.1): axes of a lower facing quality are not split. If
-  // some are lower and no split so far has a ratio of at most `acceptable_ratio`, the longest axis
-  // is tried, too. A split of at most `excellent_ratio` ends the search. The ratio is the sum of
-  // the chances of both halves to be hit over the node's: 1 if no ray meets both, 2 if all do.
-  double facing_threshold = 0.5;
-  double acceptable_ratio = 2;
-  double excellent_ratio = 0;
+  FacingRules facing;
   // From this depth on nodes are built by SAH and their longest axis.
   std::uint32_t non_fallback_levels = 0xFFFFFFFFU;
   BuildConfig build;

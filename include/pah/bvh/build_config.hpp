@@ -45,6 +45,14 @@ enum class SplitAxis : std::uint8_t {
   facing    // SPFH: of the axes whose planes face the bundle's rays well enough
 };
 
+// SplitAxis::facing (thesis, algorithm 5.1). The ratio of a split is the sum of the chances of both
+// halves to be hit over the node's: 1 if no ray meets both, 2 if all do.
+struct FacingRules {
+  double threshold = 0.5;       // axes of a lower facing quality are not split, but ...
+  double acceptable_ratio = 2;  // ... if a split so far has no such ratio, the longest axis may be
+  double excellent_ratio = 0;   // a split of at most this ends the search
+};
+
 struct SurfaceArea {
   // Half the surface area.
   [[nodiscard]] float area(const Aabb& box) const {

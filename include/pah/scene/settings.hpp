@@ -6,6 +6,7 @@
 #include <optional>
 #include <pah/bvh/build_config.hpp>
 #include <pah/geometry/vec.hpp>
+#include <pah/influence/top_level.hpp>
 #include <string>
 #include <variant>
 #include <vector>
@@ -83,6 +84,10 @@ struct AccelerationSettings {
   // Of local BVHs: see BuildConfig, whose ranges and defaults these are.
   int bins = static_cast<int>(BuildConfig{}.bins);
   int max_leaf_triangles = static_cast<int>(BuildConfig{}.max_leaf);
+  LeafRules leaves;
+  FacingRules facing;
+  std::optional<std::uint32_t> non_fallback_levels;  // see LocalConfig
+  TopLevelConfig top_level;
   // Bytes of all structures that rays are answered by, the global BVH, which is always there,
   // included.
   std::optional<std::uint64_t> memory;

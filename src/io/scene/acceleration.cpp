@@ -4,6 +4,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstdint>
+#include <glm/trigonometric.hpp>
 
 #include "io/scene/reading.hpp"
 
@@ -62,6 +63,28 @@ void read_bytes(ReadContext& context, const YamlNode& node, const ValueName& nam
                                     "), such as '2 GiB', not " + describe(node));
 }
 
+constexpr Range ratio_range{0, 2, false, false};
+constexpr std::uint32_t most_levels = 48;  // deeper ones are built by halves anyhow
+
+void read_leaf_rules(MapReader& map, LeafRules& rules) {
+  map.optional("max_leaf_cost", rules.cost, not_negative);
+  map.optional("max_leaf_area", rules.area, not_negative);
+  map.optional("max_leaf_probability", rules.probability, unit_range);
+  map.optional("min_inner_triangles", rules.triangles, 0U, BuildConfig::most_leaf);
+  map.optional("max_levels", rules.levels, 0U, most_levels);
+}
+
+void read_top_level(MapReader& map, TopLevelConfig& config) {
+  map.option("top_level", config.kind,
+             EnumNames<TopLevelKind>{{"none", TopLevelKind::none},
+                                     {"list", TopLevelKind::list},
+                                     {"octree", TopLevelKind::octree}});
+  map.optional("octree_depth", config.octree_depth, 0, 10);
+  double degrees = 0;
+  if (map.optional("direction_tolerance", degrees, Range{0, 180, false, false}))
+    config.direction_tolerance = glm::radians(degrees);
+}
+
 }  // namespace
 
 void read_acceleration(SceneReading& reading, const YamlNode* node) {
@@ -77,6 +100,13 @@ void read_acceleration(SceneReading& reading, const YamlNode* node) {
                                     {"facing", SplitAxis::facing}});
     map.optional("bins", settings.bins, int{BuildConfig::min_bins}, int{BuildConfig::max_bins});
     map.optional("max_leaf_triangles", settings.max_leaf_triangles, 1, int{BuildConfig::most_leaf});
+    read_leaf_rules(map, settings.leaves);
+    map.optional("facing_threshold", settings.facing.threshold, unit_range);
+    map.optional("acceptable_ratio", settings.facing.acceptable_ratio, ratio_range);
+    map.optional("excellent_ratio", settings.facing.excellent_ratio, ratio_range);
+    if (std::uint32_t levels = 0; map.optional("non_fallback_levels", levels, 0U, most_levels))
+      settings.non_fallback_levels = levels;
+    read_top_level(map, settings.top_level);
     if (const YamlNode* memory = map.find("memory"))
       read_bytes(reading.context, *memory, map.name_of("memory"), settings.memory);
   });

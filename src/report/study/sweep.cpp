@@ -25,7 +25,7 @@ const std::vector<Parameter>& parameters() {
        {1, 2, 4, 8},
        [](LocalConfig& c, double v) { c.build.max_leaf = static_cast<std::uint32_t>(v); }},
       {"facing_threshold", SplitAxis::facing, 0.5, {0.3, 0.5, 0.7}, [](LocalConfig& c, double v) {
-         c.facing_threshold = v;
+         c.facing.threshold = v;
        }}};
   return all;
 }
