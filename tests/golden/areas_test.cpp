@@ -64,38 +64,68 @@ Film render_few(const World& world, const Accelerator& accelerator, const Scene&
   return render(world, accelerator, film, settings, options).film;
 }
 
-}  // namespace
-
-TEST_CASE("Influence areas give the same golden pictures as brute force to the last bit") {
-  for (const std::string name : {"lamps", "columns", "scattered", "orthographic"}) {
-    CAPTURE(name);
-    const Scene scene = golden::load_golden(name).scene;
-    const World world = make_world(scene);
-    const std::vector<LocalArea> areas = many_areas(scene, world);
-    REQUIRE(areas.size() > 3);
-    const Film expected = render_few(world, *make_brute_force(world.triangles()), scene);
-    for (const auto heuristic : {Heuristic::surface_area, Heuristic::projected_area})
-      for (const auto split : {SplitAxis::best, SplitAxis::longest, SplitAxis::facing}) {
+// Every heuristic and split with every top level and some tolerances, or with one of these each.
+std::vector<LocalConfig> configs(bool all) {
+  std::vector<TopLevelConfig> top_levels{{.kind = TopLevelKind::none}};
+  for (const TopLevelKind kind : {TopLevelKind::list, TopLevelKind::octree})
+    for (const double tolerance : {0.0, 0.1, 4.0})
+      top_levels.push_back({kind, tolerance == 0.1 ? 0 : 4, tolerance});
+  std::vector<LocalConfig> configs;
+  for (const auto heuristic : {Heuristic::surface_area, Heuristic::projected_area})
+    for (const auto split : {SplitAxis::best, SplitAxis::longest, SplitAxis::facing})
+      for (std::size_t i = 0; i < (all ? top_levels.size() : 1); ++i) {
         LocalConfig config;
         config.heuristic = heuristic;
         config.split = split;
-        const auto local = make_local_bvhs(world.triangles(), areas, config);
-        const Film film = render_few(world, *local, scene);
-        REQUIRE(film.pixels.size() == expected.pixels.size());
-        std::size_t differing = 0;
-        for (std::size_t i = 0; i < film.pixels.size(); ++i)
-          differing += identical(film.pixels[i], expected.pixels[i]) ? 0U : 1U;
-        CHECK(differing == 0);
-        CHECK(film.features.size() == film.pixels.size());
-        CHECK(film.features == expected.features);
-        // They were asked, and could answer for rays that do not leave them.
-        std::uint64_t asked = 0, answered = 0;
-        for (const LocalBvhUse& use : local->uses()) {
-          asked += use.asked;
-          answered += use.answered;
-        }
-        CHECK(asked > 1000);
-        CHECK(answered > 100);
+        config.top_level = top_levels[(configs.size() + 1) % top_levels.size()];
+        configs.push_back(config);
       }
+  return configs;
+}
+
+void check_pictures(const std::string& name, const std::vector<LocalConfig>& configs) {
+  CAPTURE(name);
+  const Scene scene = golden::load_golden(name).scene;
+  const World world = make_world(scene);
+  const std::vector<LocalArea> areas = many_areas(scene, world);
+  REQUIRE(areas.size() > 3);
+  const Film expected = render_few(world, *make_brute_force(world.triangles()), scene);
+  std::uint64_t asked_of_bundles = 0, most_asked = 0;
+  for (const LocalConfig& config : configs) {
+    const auto local = make_local_bvhs(world.triangles(), areas, config);
+    const Film film = render_few(world, *local, scene);
+    REQUIRE(film.pixels.size() == expected.pixels.size());
+    std::size_t differing = 0;
+    for (std::size_t i = 0; i < film.pixels.size(); ++i)
+      differing += identical(film.pixels[i], expected.pixels[i]) ? 0U : 1U;
+    CHECK(differing == 0);
+    CHECK(film.features.size() == film.pixels.size());
+    CHECK(film.features == expected.features);
+    // They were asked, and could answer for rays that do not leave them.
+    std::uint64_t asked = 0, answered = 0;
+    for (const LocalBvhUse& use : local->uses()) {
+      asked += use.asked;
+      answered += use.answered;
+    }
+    CHECK(asked > 1000);
+    CHECK(answered > 100);
+    const TopLevelConfig& top_level = config.top_level;
+    if (top_level.kind == TopLevelKind::none) asked_of_bundles = asked;
+    if (top_level.direction_tolerance > 3) most_asked = asked;
   }
+  // A top level finds areas for rays that have no bundle; "lamps" has direct light only.
+  if (asked_of_bundles > 0 && name != "lamps") CHECK(most_asked > asked_of_bundles);
+}
+
+}  // namespace
+
+TEST_CASE("Influence areas give the same golden pictures as brute force to the last bit") {
+  for (const std::string name : {"lamps", "columns", "scattered", "orthographic"})
+    check_pictures(name, configs(false));
+}
+
+TEST_CASE("Influence areas give the same golden pictures, however they are built and found",
+          "[full]") {
+  for (const std::string name : {"lamps", "columns", "scattered", "orthographic"})
+    check_pictures(name, configs(true));
 }
