@@ -1,0 +1,9 @@
+#!/usr/bin/env bash
+#SBATCH --job-name=pahrender-frame
+# One frame of an animation:
+#   sbatch --array=0-23 frame.sh SCENE frame_####.png [options of pahrender]
+set -euo pipefail
+scene=$1 pictures=$2
+shift 2
+exec "${PAHRENDER:-pahrender}" "$scene" --frames "$SLURM_ARRAY_TASK_ID" -o "$pictures" \
+  --threads "${SLURM_CPUS_PER_TASK:-1}" "$@"
