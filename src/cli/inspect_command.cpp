@@ -10,6 +10,7 @@
 #include <pah/scene/world.hpp>
 
 #include "accel/build_local.hpp"
+#include "bvh/bvh_cost.hpp"
 #include "cli/console.hpp"
 #include "cli/film_size.hpp"
 #include "cli/interrupt.hpp"

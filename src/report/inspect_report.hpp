@@ -3,10 +3,10 @@
 
 #include <cstdint>
 #include <optional>
+#include <pah/bvh/analyze.hpp>
 #include <string>
 #include <vector>
 
-#include "bvh/analyze.hpp"
 #include "report/grid_report.hpp"
 #include "report/ray_costs.hpp"
 

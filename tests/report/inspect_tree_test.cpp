@@ -1,7 +1,8 @@
 // Numbers of a tree made by hand.
+#include <pah/bvh/analyze.hpp>
 #include <pah/bvh/build_config.hpp>
 
-#include "bvh/analyze.hpp"
+#include "bvh/bvh_cost.hpp"
 #include "catch.hpp"
 #include "hand_made_tree.hpp"
 
