@@ -1,4 +1,4 @@
-// The one convention of projections, against GLM's matrices and the thesis's printed ones.
+// The one convention of projections, against GLM's matrices.
 #include <glm/gtc/matrix_transform.hpp>
 #include <pah/influence/box_sectors.hpp>
 
@@ -20,7 +20,7 @@ double distance(const DVec2& a, const DVec2& b) { return glm::length(a - b); }
 
 }  // namespace
 
-// Errata, eq. 5.2 and 5.4.
+// In place of the thesis's equations 5.2 and 5.4.
 TEST_CASE("Projections agree with GLM's matrices") {
   Shapes shapes(1);
   for (int i = 0; i < 1000; ++i) {
@@ -44,48 +44,6 @@ TEST_CASE("Projections agree with GLM's matrices") {
     REQUIRE_FALSE(project(point, f.eye - 0.1 * f.axes[2]).has_value());
     REQUIRE_FALSE(project(point, f.eye).has_value());
   }
-}
-
-TEST_CASE("The thesis's orthographic matrix misplaces what is off center") {
-  const double left = 2, right = 6, bottom = -1, top = 1, far = 10;
-  const auto printed = [&](const DVec3& p) {
-    return DVec3(2 / (right - left) * p.x + (left + right) / 2,
-                 2 / (top - bottom) * p.y + (top + bottom) / 2, -2 / far * p.z - 1);
-  };
-  const glm::dvec4 corner =
-      glm::orthoRH_ZO(left, right, bottom, top, 0.0, far) * glm::dvec4(right, top, 0, 1);
-  CHECK(DVec2(corner) == DVec2(1, 1));
-  CHECK(printed({right, top, 0}).x == 7);  // should be 1
-  // Ours: the same view as an oriented box.
-  const PlaneArea area{Obb{{4, 0, 5}, DMat3(1.0), {2, 1, 5}}};
-  CHECK(*project(area, {right, top, 0}) / DVec2(2, 1) == DVec2(1, 1));
-}
-
-// Errata, algorithms 5.3 and 5.4.
-TEST_CASE("The thesis's hull table and its algorithms disagree about left and right") {
-  // The table: bit 0 right, 1 left, 2 bottom, 3 top, 4 front, 5 back. Algorithm 5.4 for an eye
-  // left of the box and above it:
-  const Aabb box{{0, 0, 0}, {1, 1, 1}};
-  const DVec3 eye(-1, 2, 0.5);
-  int printed = 0;
-  if (eye.x < box.min.x)
-    printed |= 1;
-  else if (eye.x > box.max.x)
-    printed |= 2;
-  if (eye.y < box.min.y)
-    printed |= 4;
-  else if (eye.y > box.max.y)
-    printed |= 8;
-  const bool table_says_right = (printed & 1) != 0;
-  CHECK(table_says_right);  // though the eye is on the left
-
-  const BoxSector sector = sector_of_eye(eye, box);
-  CHECK(sector == BoxSector{-1, 1, 0});
-  const auto outline = outline_from(sector).span();
-  REQUIRE(outline.size() == 6);
-  // Four corners of the face at min.x, four of the one at max.y, less the two that both share
-  // and keep: only the edge at max.x, min.y is hidden.
-  for (const std::uint8_t corner : outline) CHECK((corner & 0b011) != 0b001);
 }
 
 TEST_CASE("Every sector has an outline of four or six corners") {

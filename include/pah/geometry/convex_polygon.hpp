@@ -20,12 +20,13 @@ using ConvexPolygon = std::vector<DVec2>;
 // The smallest convex polygon around the points, without repeated or collinear vertices.
 [[nodiscard]] ConvexPolygon convex_hull(std::span<const DVec2> points);
 
+// By the shoelace formula (thesis, A.10), about the first vertex: large coordinates do not cancel.
 [[nodiscard]] double area(std::span<const DVec2> polygon);
 
-// Whether the point lies in the polygon or on its boundary. Exact.
+// Whether the point lies in the polygon or on its boundary (thesis, A.8). Exact.
 [[nodiscard]] bool contains(std::span<const DVec2> polygon, const DVec2& point);
 
-// The common part of two polygons. Its vertices are rounded once each.
+// The common part of two polygons (thesis, A.9). Its vertices are rounded once each.
 [[nodiscard]] ConvexPolygon intersection(const ConvexPolygon& a, const ConvexPolygon& b);
 
 // The area of the common part: symmetric, and never above the area of either.

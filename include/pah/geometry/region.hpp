@@ -34,8 +34,9 @@ struct Frustum {
 
 using Region = std::variant<Aabb, Obb, Frustum>;
 
-[[nodiscard]] bool contains(const Aabb& region, const Vec3& point);
+[[nodiscard]] bool contains(const Aabb& region, const Vec3& point);  // thesis, A.6
 [[nodiscard]] bool contains(const Obb& region, const Vec3& point);
+// Projects the point as the thesis does (A.7), by the frustum's axes in place of a matrix.
 [[nodiscard]] bool contains(const Frustum& region, const Vec3& point);
 [[nodiscard]] bool contains(const Region& region, const Vec3& point);
 
