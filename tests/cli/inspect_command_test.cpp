@@ -202,6 +202,7 @@ TEST_CASE("inspect tells of areas that a render does not build if asked to") {
   for (std::size_t i = 1; i < bvhs.size(); ++i) {
     CHECK(bvhs[i]["seen_overlap"].get<double>() >= 0);
     CHECK(bvhs[i]["seen_overlap"].get<double>() <= 1);
+    if (bvhs[i]["triangles"] == 0) continue;  // nothing beside the bulb
     CHECK(bvhs[i]["levels"][0].contains("seen_overlap"));
     CHECK(bvhs[i]["surface_cost"].get<double>() > 0);
   }
