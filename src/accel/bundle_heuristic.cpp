@@ -31,6 +31,10 @@ BuildHeuristic bundle_heuristic(const InfluenceArea& area, const LocalConfig& co
     heuristic.whole = 1;
     heuristic.square_meters = cross_section(area);
   }
+  if (config.heuristic == Heuristic::mean_direction) {
+    heuristic.measure = each_box(ParallelBundleArea(mean_absolute_direction(area)));
+    heuristic.square_meters = 1;
+  }
   if (config.split == SplitAxis::longest) heuristic.axes = longest_axis;
   if (config.split == SplitAxis::facing)
     heuristic.search = AxisSearch{[area](const Aabb& box) { return rate_axes(area, box); },

@@ -65,13 +65,24 @@ double cost_within_root(const BuiltBvh& built, const BoxMeasure& measure) {
   return expected_cost(built.bvh, measure, measure_of(measure, built.tree.nodes.front().box));
 }
 
+const char* heuristic_name(Heuristic heuristic) {
+  switch (heuristic) {
+    case Heuristic::surface_area:
+      return "surface area";
+    case Heuristic::projected_area:
+      return "projected area";
+    case Heuristic::mean_direction:
+      return "mean direction";
+  }
+  return "";
+}
+
 BvhReport report_local(const World& world, const SceneArea& area, const LocalConfig& config,
                        const Bvh& global) {
   const BuiltLocalBvh local = build_local_bvh(world.triangles(), area.area, config);
   const BoxMeasure probability = each_box(HitProbability(area.area));
-  const bool projected = config.heuristic == Heuristic::projected_area;
   return {.name = area.name,
-          .heuristic = projected ? "projected area" : "surface area",
+          .heuristic = heuristic_name(config.heuristic),
           .tree = summarize(local.built.tree, probability),
           .wide_nodes = local.built.bvh.nodes.size(),
           .expected_cost = cost_within_root(local.built, probability),

@@ -86,7 +86,8 @@ TEST_CASE("Local BVHs answer like brute force, bit for bit") {
     INFO(soup.name);
     const Setting setting = make_setting(soup, ++seed);
     const Answers expected = ask(*make_brute_force(soup.triangles()), setting.rays);
-    for (const auto heuristic : {Heuristic::surface_area, Heuristic::projected_area}) {
+    for (const auto heuristic :
+         {Heuristic::surface_area, Heuristic::projected_area, Heuristic::mean_direction}) {
       for (const auto split : {SplitAxis::best, SplitAxis::longest, SplitAxis::facing}) {
         LocalConfig config;
         config.heuristic = heuristic;

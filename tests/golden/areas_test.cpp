@@ -71,7 +71,8 @@ std::vector<LocalConfig> configs(bool all) {
     for (const double tolerance : {0.0, 0.1, 4.0})
       top_levels.push_back({kind, tolerance == 0.1 ? 0 : 4, tolerance});
   std::vector<LocalConfig> configs;
-  for (const auto heuristic : {Heuristic::surface_area, Heuristic::projected_area})
+  for (const auto heuristic :
+       {Heuristic::surface_area, Heuristic::projected_area, Heuristic::mean_direction})
     for (const auto split : {SplitAxis::best, SplitAxis::longest, SplitAxis::facing})
       for (std::size_t i = 0; i < (all ? top_levels.size() : 1); ++i) {
         LocalConfig config;

@@ -150,6 +150,28 @@ TEST_CASE("Areas scale by powers of two without a trace") {
   }
 }
 
+TEST_CASE("The mean direction of an area is that of its rays") {
+  const DVec3 down(0, -1, 0);
+  CHECK(mean_absolute_direction(make_plane_area(DVec3(0), DVec3(3, 0, -4), DVec2(1), 1)) ==
+        DVec3(0.6, 0, 0.8));
+  // Of a narrow one that of its axis.
+  const DVec3 narrow = mean_absolute_direction(make_point_area(DVec3(0), down, DVec2(0.01), 0, 1));
+  CHECK(narrow.y == Approx(1).epsilon(1e-4));
+  CHECK(narrow.x < 0.01);
+  // A face of a cube seen from its middle: a sixth of all directions, over which |d| has a mean of
+  // 1/2 for each axis, so with y the largest and x and z alike: y + 2 x = 3/2.
+  constexpr double right_angle = 1.5707963267948966;
+  const DVec3 face =
+      mean_absolute_direction(make_point_area(DVec3(0), down, DVec2(right_angle), 0, 1));
+  CHECK(face.y + 2 * face.x == Approx(1.5).epsilon(1e-3));
+  CHECK(face.x == Approx(face.z));
+  CHECK(face.y > 0.7);
+  // Uniform in the picture plane: more of them lean.
+  const DVec3 plane = mean_absolute_direction(
+      make_point_area(DVec3(0), down, DVec2(right_angle), 0, 1, PointMeasure::plane));
+  CHECK(plane.y < face.y);
+}
+
 TEST_CASE("The expected area of a spread bundle is the mean over its directions") {
   Shapes shapes(6);
   std::vector<DVec3> directions;

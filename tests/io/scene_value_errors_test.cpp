@@ -240,7 +240,7 @@ TEST_CASE("bad lights and influence areas") {
        "scene.yaml:1:57: error: 'forward' of influence area 1 must not be zero"},
       {"acceleration: {heuristic: paah}",
        "scene.yaml:1:27: error: unknown heuristic 'paah' of acceleration; did you mean 'pah'? "
-       "Available options are: auto, sah, pah"},
+       "Available options are: auto, sah, pah, mean_direction"},
       {"acceleration: {max_leaf_triangles: 33}",
        "scene.yaml:1:36: error: 'max_leaf_triangles' of acceleration must be a whole number "
        "between "

@@ -34,8 +34,10 @@ inline constexpr AxisMask all_axes = 0b111;
 
 // By what the boxes of a BVH are measured.
 enum class Heuristic : std::uint8_t {
-  surface_area,   // SAH: as if rays came from everywhere
-  projected_area  // PAH: the chance that a ray of the area's bundle hits the box
+  surface_area,    // SAH: as if rays came from everywhere
+  projected_area,  // PAH: the chance that a ray of the area's bundle hits the box
+  mean_direction  // PAH of a spread: the mean of the box's projected areas along the bundle's rays,
+                  // as if each of these ran everywhere. Costs what SAH costs
 };
 
 // Which axes of a node may be split.

@@ -93,7 +93,8 @@ void read_acceleration(SceneReading& reading, const YamlNode* node) {
     map.option("heuristic", settings.heuristic,
                EnumNames<std::optional<Heuristic>>{{"auto", std::nullopt},
                                                    {"sah", Heuristic::surface_area},
-                                                   {"pah", Heuristic::projected_area}});
+                                                   {"pah", Heuristic::projected_area},
+                                                   {"mean_direction", Heuristic::mean_direction}});
     map.option("split_axis", settings.split_axis,
                EnumNames<SplitAxis>{{"auto", SplitAxis::best},
                                     {"longest", SplitAxis::longest},

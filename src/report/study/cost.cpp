@@ -1,4 +1,4 @@
-// Experiments 2 and 4: the trees of both heuristics and all choices of axes, compared by what a
+// Experiments 2 and 4: the trees of all heuristics and all choices of axes, compared by what a
 // bundle's rays cost, and by the share of rays that must hit in the area: a ray
 // costs local + (1 - share) * global instead of global.
 #include <ctime>
@@ -20,7 +20,8 @@ void study_cost(const StudySite& site, const BuiltBvh& global,
   const StudyTree global_tree{global.tree, site.mesh.triangles(), all_triangles,
                               BuildConfig{}.side_by_side};
   const double global_cost = count_closest(global_tree, site.rays, false).mean_of_all();
-  for (const Heuristic heuristic : {Heuristic::surface_area, Heuristic::projected_area}) {
+  for (const Heuristic heuristic :
+       {Heuristic::surface_area, Heuristic::projected_area, Heuristic::mean_direction}) {
     for (const SplitAxis split : {SplitAxis::longest, SplitAxis::best, SplitAxis::facing}) {
       LocalConfig config;
       config.heuristic = heuristic;

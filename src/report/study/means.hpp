@@ -46,8 +46,12 @@ inline constexpr StudyVariant sah_facing{Heuristic::surface_area, SplitAxis::fac
 inline constexpr StudyVariant pah_longest{Heuristic::projected_area, SplitAxis::longest};
 inline constexpr StudyVariant pah_best{Heuristic::projected_area, SplitAxis::best};
 inline constexpr StudyVariant pah_facing{Heuristic::projected_area, SplitAxis::facing};
-inline constexpr StudyVariant study_variants[] = {sah_longest, sah_best, sah_facing,
-                                                  pah_longest, pah_best, pah_facing};
+inline constexpr StudyVariant mean_longest{Heuristic::mean_direction, SplitAxis::longest};
+inline constexpr StudyVariant mean_best{Heuristic::mean_direction, SplitAxis::best};
+inline constexpr StudyVariant mean_facing{Heuristic::mean_direction, SplitAxis::facing};
+inline constexpr StudyVariant study_variants[] = {sah_longest,  sah_best,  sah_facing,
+                                                  pah_longest,  pah_best,  pah_facing,
+                                                  mean_longest, mean_best, mean_facing};
 
 // The thesis's claims and what becomes of them, as a section of the report.
 [[nodiscard]] std::string study_findings(const StudyResults& results);

@@ -17,7 +17,15 @@ bool is_swept(const StudyArea& area, bool quick) {
 }  // namespace
 
 const char* name_of(Heuristic heuristic) {
-  return heuristic == Heuristic::surface_area ? "SAH" : "PAH";
+  switch (heuristic) {
+    case Heuristic::surface_area:
+      return "SAH";
+    case Heuristic::projected_area:
+      return "PAH";
+    case Heuristic::mean_direction:
+      return "mean direction";
+  }
+  return "";
 }
 
 const char* name_of(SplitAxis split) {
