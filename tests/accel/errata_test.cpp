@@ -185,12 +185,17 @@ TEST_CASE(
 // Section 3.2: "when no hit is found, it is necessary to traverse the global BVH".
 TEST_CASE(
     "A segment within an area that hits nothing is answered, and not asked again as printed") {
-  const InfluenceArea area =
-      make_point_area(DVec3(0), DVec3(0, 0, 1), DVec2(1), /*near=*/0, /*far=*/10);
+  // No float has the eye's coordinates, so that some segments end a rounding outside.
+  const DVec3 eye(0.1, 0.2, 0.3);
+  const InfluenceArea area = make_point_area(eye, DVec3(0, 0, 1), DVec2(1), /*near=*/0, /*far=*/10);
   Soup soup;
   add_wall(soup, -5, 90);
+  Random random(1);
   std::vector<Ray> rays;
-  for (const float x : {-1.0F, 0.0F, 0.5F, 2.0F}) rays.push_back({{x, 0, 8}, 1, {-x, 0, -8}, lamp});
+  for (int i = 0; i < 200; ++i) {
+    const Vec3 from = random.in_box({{-2, -2, 7}, {2, 2, 9}});
+    rays.push_back({from, 1, Vec3(eye) - from, lamp});
+  }
   const auto ours = make_local_bvhs(soup.triangles(), {{area, lamp}});
   std::vector<std::uint8_t> found(rays.size(), 2), truth(rays.size(), 2);
   TraversalCounts counts, printed_counts;
