@@ -185,8 +185,8 @@ TEST_CASE(
 // Section 3.2: "when no hit is found, it is necessary to traverse the global BVH".
 TEST_CASE(
     "A segment within an area that hits nothing is answered, and not asked again as printed") {
-  // No float has the eye's coordinates, so that some segments end a rounding outside.
-  const DVec3 eye(0.1, 0.2, 0.3);
+  // No float has the eye's coordinates: segments end a rounding beyond it, outside.
+  const DVec3 eye(0.1, 0.2, 0.7);
   const InfluenceArea area = make_point_area(eye, DVec3(0, 0, 1), DVec2(1), /*near=*/0, /*far=*/10);
   Soup soup;
   add_wall(soup, -5, 90);
