@@ -23,6 +23,7 @@ int main(int argc, char** argv) {
     register_bsdfs();
     register_lights();
     register_renders();
+    register_top_levels();
     benchmark::RunSpecifiedBenchmarks();
   } catch (const std::exception& error) {
     std::fprintf(stderr, "error: %s\n", error.what());

@@ -14,5 +14,6 @@ void register_sampler();
 void register_bsdfs();
 void register_lights();
 void register_renders();
+void register_top_levels();
 
 }  // namespace pah::bench

@@ -5,7 +5,7 @@
 #include <pah/influence/bundle_area.hpp>
 
 #include "accel/bundle_heuristic.hpp"
-#include "bvh/analyze.hpp"
+#include "bvh/bvh_cost.hpp"
 #include "geometry/rounding.hpp"
 #include "parallel/parallel_for.hpp"
 

@@ -3,10 +3,10 @@
 // threads. A heuristic supplies only the measure of boxes and the axes to split.
 #pragma once
 
+#include <pah/bvh/binary_tree.hpp>
 #include <pah/geometry/triangles.hpp>
 #include <span>
 
-#include "bvh/binary_tree.hpp"
 #include "bvh/bvh.hpp"
 #include "bvh/heuristic.hpp"
 

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <array>
+#include <pah/bvh/binary_tree.hpp>
 #include <pah/bvh/build_config.hpp>
 #include <pah/bvh/traversal_counts.hpp>
 #include <pah/geometry/triangles.hpp>
@@ -14,7 +15,6 @@
 #include <stdexcept>
 #include <vector>
 
-#include "bvh/binary_tree.hpp"
 #include "geometry/ray_box.hpp"
 
 namespace pah {

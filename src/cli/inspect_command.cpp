@@ -10,6 +10,7 @@
 #include <pah/scene/world.hpp>
 
 #include "accel/build_local.hpp"
+#include "bvh/bvh_cost.hpp"
 #include "cli/console.hpp"
 #include "cli/film_size.hpp"
 #include "cli/interrupt.hpp"
@@ -74,9 +75,11 @@ BvhReport report_local(const World& world, const SceneArea& area, const LocalCon
           .tree = summarize(local.built.tree, probability),
           .wide_nodes = local.built.bvh.nodes.size(),
           .expected_cost = cost_within_root(local.built, probability),
+          .surface_cost = cost_within_root(local.built, each_box(SurfaceArea{})),
           .camera_rays = std::nullopt,
           .bundle =
               BundleCosts{bundle_cost(local.built.bvh, area.area), bundle_cost(global, area.area)},
+          .seen = seen_overlaps(local.built.tree, area.area),
           .memory_bytes = local.built.bvh.memory_bytes(),
           .build_seconds = local.seconds};
 }
@@ -116,8 +119,10 @@ ExitCode run_inspect(const InspectArguments& arguments) {
                          .tree = summarize(global.built.tree, surface_area),
                          .wide_nodes = global.built.bvh.nodes.size(),
                          .expected_cost = cost_within_root(global.built, surface_area),
+                         .surface_cost = cost_within_root(global.built, surface_area),
                          .camera_rays = summarize(costs),
                          .bundle = std::nullopt,
+                         .seen = std::nullopt,
                          .memory_bytes = global.built.bvh.memory_bytes(),
                          .build_seconds = global.seconds});
 
@@ -125,7 +130,7 @@ ExitCode run_inspect(const InspectArguments& arguments) {
   const Acceleration acceleration = make_acceleration(world, scene);
   warnings.add(warnings_of(acceleration, world, scene));
   for (std::size_t i = 0; i < acceleration.areas.size(); ++i)
-    if (acceleration.plans[i].build)
+    if (acceleration.plans[i].build || arguments.all_areas)
       report.bvhs.push_back(report_local(world, acceleration.areas[i],
                                          local_config(scene.acceleration), global.built.bvh));
   report.accelerator = acceleration.name;

@@ -21,6 +21,7 @@ struct InspectArguments {
   std::filesystem::path structures;  // .png
   std::filesystem::path boxes;       // .gltf
   std::uint32_t levels = 8;          // of boxes
+  bool all_areas = false;            // also those that a render does not build
 };
 
 // Throws UsageError, SceneError or FileError.

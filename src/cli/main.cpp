@@ -266,6 +266,8 @@ CLI::App* add_inspect(CLI::App& app, InspectArguments& arguments) {
   inspect->add_option("--height", arguments.height, "Rows of camera rays")
       ->check(whole_number(1, 65536))
       ->type_name("N");
+  inspect->add_flag("--all-areas", arguments.all_areas,
+                    "Also areas that are derived and that a render does\nnot build");
   inspect->add_option("--json", arguments.json, "Write the report as JSON")->type_name("FILE");
   inspect->add_option("--csv", arguments.csv, "Write the report as rows of numbers")
       ->type_name("FILE");

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <bit>
+#include <pah/bvh/analyze.hpp>
 
-#include "bvh/analyze.hpp"
 #include "report/false_color.hpp"
 #include "report/json_value.hpp"
 

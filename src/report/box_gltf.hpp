@@ -1,9 +1,8 @@
 // A tree's boxes as a glTF 2.0 file for any viewer.
 #pragma once
 
+#include <pah/bvh/binary_tree.hpp>
 #include <string>
-
-#include "bvh/binary_tree.hpp"
 
 namespace pah {
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <pah/accel/trees.hpp>
 
 #include "report/format_bytes.hpp"
 #include "report/json_value.hpp"
@@ -27,12 +28,15 @@ std::string leaf_sizes_text(const TreeSummary& tree) {
   return text;
 }
 
-std::string levels_text(const TreeSummary& tree) {
-  std::string text = "  level      nodes     leaves  overlap of siblings\n";
+std::string levels_text(const TreeSummary& tree, const std::optional<SeenOverlap>& seen) {
+  std::string text = fmt::format("  level      nodes     leaves  overlap of siblings{}\n",
+                                 seen ? "  as seen" : "");
   for (std::size_t depth = 0; depth < tree.levels.size(); ++depth) {
     const TreeLevel& level = tree.levels[depth];
     text += fmt::format("  {:5} {:10} {:10}", depth, level.nodes, level.leaves);
     if (level.nodes > level.leaves) text += fmt::format("  {:5.1f} %", 100 * level.overlap);
+    if (seen && level.nodes > level.leaves)
+      text += fmt::format("  {:18.1f} %", 100 * seen->levels[depth]);
     text += '\n';
   }
   return text;
@@ -48,8 +52,10 @@ std::string bvh_text(const BvhReport& bvh) {
   line("nodes", fmt::format("{}, of which {} leaves; {} eight-wide", tree.nodes, tree.leaves,
                             bvh.wide_nodes));
   line("depth of leaves", fmt::format("at most {}, mean {:.1f}", tree.max_depth, tree.mean_depth));
-  line("expected cost", fmt::format("{:.2f}", bvh.expected_cost));
+  line("expected cost", fmt::format("{:.2f}, by SAH {:.2f}", bvh.expected_cost, bvh.surface_cost));
   line("overlap", fmt::format("{:.1f} % of the parent, mean", 100 * tree.overlap));
+  if (bvh.seen)
+    line("  as seen", fmt::format("{:.1f} %, by the rays of the area", 100 * bvh.seen->all));
   if (const auto& bundle = bvh.bundle)
     line("bundle's rays",
          fmt::format("expected {:.2f}, in the global BVH {:.2f}", bundle->local, bundle->global));
@@ -62,7 +68,7 @@ std::string bvh_text(const BvhReport& bvh) {
   }
   line("memory", format_bytes(bvh.memory_bytes));
   line("build", fmt::format("{:.3g} s", bvh.build_seconds));
-  if (tree.nodes > 0) text += "\n" + leaf_sizes_text(tree) + "\n" + levels_text(tree);
+  if (tree.nodes > 0) text += "\n" + leaf_sizes_text(tree) + "\n" + levels_text(tree, bvh.seen);
   return text;
 }
 
@@ -72,9 +78,12 @@ JsonValue bvh_json(const BvhReport& bvh) {
   for (std::size_t size = 1; size < tree.leaf_sizes.size(); ++size)
     sizes.push_back({{"triangles", size}, {"leaves", tree.leaf_sizes[size]}});
   JsonValue levels = JsonValue::array();
-  for (const TreeLevel& level : tree.levels)
-    levels.push_back(
-        {{"nodes", level.nodes}, {"leaves", level.leaves}, {"overlap", level.overlap}});
+  for (std::size_t depth = 0; depth < tree.levels.size(); ++depth) {
+    const TreeLevel& level = tree.levels[depth];
+    JsonValue json{{"nodes", level.nodes}, {"leaves", level.leaves}, {"overlap", level.overlap}};
+    if (bvh.seen) json.set("seen_overlap", bvh.seen->levels[depth]);
+    levels.push_back(std::move(json));
+  }
   JsonValue json{{"name", bvh.name},
                  {"heuristic", bvh.heuristic},
                  {"triangles", tree.triangles},
@@ -83,11 +92,13 @@ JsonValue bvh_json(const BvhReport& bvh) {
                  {"wide_nodes", bvh.wide_nodes},
                  {"depth", {{"max", tree.max_depth}, {"mean", tree.mean_depth}}},
                  {"expected_cost", bvh.expected_cost},
+                 {"surface_cost", bvh.surface_cost},
                  {"overlap", tree.overlap},
                  {"memory_bytes", bvh.memory_bytes},
                  {"build_seconds", bvh.build_seconds},
                  {"leaf_sizes", std::move(sizes)},
                  {"levels", std::move(levels)}};
+  if (bvh.seen) json.set("seen_overlap", bvh.seen->all);
   if (const auto& bundle = bvh.bundle)
     json.set("bundle_cost", {{"local", bundle->local}, {"global", bundle->global}});
   if (const auto& rays = bvh.camera_rays)
@@ -117,6 +128,31 @@ std::string grid_rows(const GridReport& grid) {
 }
 
 }  // namespace
+
+SeenOverlap seen_overlaps(const BinaryTree& tree, const InfluenceArea& area) {
+  SeenOverlap seen;
+  std::vector<std::uint64_t> inner;
+  const auto per_node = [&](const NodeVisit& visit) {
+    if (visit.depth == seen.levels.size()) {
+      seen.levels.push_back(0);
+      inner.push_back(0);
+    }
+    if (visit.node().leaf()) return;
+    seen.levels[visit.depth] +=
+        seen_overlap(area, visit.node().box, visit.left().box, visit.right().box);
+    ++inner[visit.depth];
+  };
+  return visit_tree(tree, per_node, [&] {
+    std::uint64_t all = 0;
+    for (std::size_t depth = 0; depth < inner.size(); ++depth) {
+      all += inner[depth];
+      seen.all += seen.levels[depth];
+      if (inner[depth] > 0) seen.levels[depth] /= static_cast<double>(inner[depth]);
+    }
+    if (all > 0) seen.all /= static_cast<double>(all);
+    return seen;
+  });
+}
 
 std::string inspect_text(const InspectReport& report) {
   std::string text = fmt::format("{}: {} triangles, {} x {} pixels\n", report.scene,
@@ -156,7 +192,9 @@ std::string inspect_csv(const InspectReport& report) {
     row("max_depth", "", tree.max_depth);
     row("mean_depth", "", tree.mean_depth);
     row("expected_cost", "", bvh.expected_cost);
+    row("surface_cost", "", bvh.surface_cost);
     row("overlap", "", tree.overlap);
+    if (bvh.seen) row("seen_overlap", "", bvh.seen->all);
     if (const auto& bundle = bvh.bundle) {
       row("bundle_cost", "local", bundle->local);
       row("bundle_cost", "global", bundle->global);
@@ -178,6 +216,7 @@ std::string inspect_csv(const InspectReport& report) {
       row("nodes_of_level", std::to_string(depth), level.nodes);
       row("leaves_of_level", std::to_string(depth), level.leaves);
       row("overlap_of_level", std::to_string(depth), level.overlap);
+      if (bvh.seen) row("seen_overlap_of_level", std::to_string(depth), bvh.seen->levels[depth]);
     }
   }
   for (const GridReport& grid : report.light_grids) text += grid_rows(grid);

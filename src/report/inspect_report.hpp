@@ -3,14 +3,22 @@
 
 #include <cstdint>
 #include <optional>
+#include <pah/bvh/analyze.hpp>
+#include <pah/influence/influence_area.hpp>
 #include <string>
 #include <vector>
 
-#include "bvh/analyze.hpp"
 #include "report/grid_report.hpp"
 #include "report/ray_costs.hpp"
 
 namespace pah {
+
+// How siblings overlap as an influence area's bundle sees them: pah/accel/trees.hpp.
+struct SeenOverlap {
+  std::vector<double> levels;  // means over the inner nodes of each
+  double all = 0;              // mean over all
+};
+[[nodiscard]] SeenOverlap seen_overlaps(const BinaryTree& tree, const InfluenceArea& area);
 
 // Expected, of a ray of an influence area's bundle, whether it meets any box or not.
 struct BundleCosts {
@@ -26,8 +34,10 @@ struct BvhReport {
   TreeSummary tree;                        // as it was built, with two children a node
   std::uint64_t wide_nodes = 0;            // as it is traversed, with up to eight
   double expected_cost = 0;                // so, of a ray that meets the root's box
+  double surface_cost = 0;                 // the same, of rays from everywhere (SAH)
   std::optional<CostSummary> camera_rays;  // of the global BVH
   std::optional<BundleCosts> bundle;       // of a local BVH
+  std::optional<SeenOverlap> seen;         // of a local BVH
   std::uint64_t memory_bytes = 0;
   double build_seconds = 0;
 };

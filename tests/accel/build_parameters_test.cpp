@@ -1,10 +1,10 @@
 // Every parameter of a local BVH's build (thesis, 5.1) does to the tree what it says.
 #include <algorithm>
+#include <pah/bvh/analyze.hpp>
 #include <pah/influence/bundle_area.hpp>
 
 #include "accel/build_local.hpp"
 #include "accel/bundle_heuristic.hpp"
-#include "bvh/analyze.hpp"
 #include "catch.hpp"
 #include "support/soups.hpp"
 

@@ -1,11 +1,11 @@
 // One area a case, so that no other answers in its place: what goes wrong if a guard is forgotten.
 #include <cmath>
 #include <pah/accel/local_bvhs.hpp>
+#include <pah/bvh/analyze.hpp>
 #include <pah/influence/bundle_area.hpp>
 
 #include "accel/build_local.hpp"
 #include "accel/bundle_heuristic.hpp"
-#include "bvh/analyze.hpp"
 #include "catch.hpp"
 #include "support/answers.hpp"
 #include "support/soups.hpp"

@@ -1,6 +1,5 @@
 // The builder: valid, bounded and deterministic trees.
 #include "bvh/build.hpp"
-#include "bvh/analyze.hpp"
 
 #include <tbb/global_control.h>
 #include <tbb/task_arena.h>
@@ -8,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <pah/bvh/analyze.hpp>
 
 #include "catch.hpp"
 #include "support/soups.hpp"

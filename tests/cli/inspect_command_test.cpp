@@ -187,3 +187,25 @@ TEST_CASE("inspect ends as it should where it cannot") {
     CHECK(files() == before);
   }
 }
+
+TEST_CASE("inspect tells of areas that a render does not build if asked to") {
+  const CurrentTemporaryFolder folder;
+  write_file("scene.yaml", small_scene);
+  const Outcome outcome =
+      run({"inspect", "scene.yaml", "--all-areas", "--json", "r.json", "--csv", "r.csv"});
+  INFO(outcome.err);
+  REQUIRE(outcome.exit_code == 0);
+  const auto bvhs = nlohmann::json::parse(read_file("r.json"))["bvhs"];
+  REQUIRE(bvhs.size() > 1);
+  CHECK(bvhs[0]["surface_cost"] == bvhs[0]["expected_cost"]);
+  CHECK_FALSE(bvhs[0].contains("seen_overlap"));
+  for (std::size_t i = 1; i < bvhs.size(); ++i) {
+    CHECK(bvhs[i]["seen_overlap"].get<double>() >= 0);
+    CHECK(bvhs[i]["seen_overlap"].get<double>() <= 1);
+    if (bvhs[i]["triangles"] == 0) continue;  // nothing beside the bulb
+    CHECK(bvhs[i]["levels"][0].contains("seen_overlap"));
+    CHECK(bvhs[i]["surface_cost"].get<double>() > 0);
+  }
+  CHECK(contains(read_file("r.csv"), ",seen_overlap_of_level,0,"));
+  CHECK(contains(outcome.out, "by the rays of the area"));
+}

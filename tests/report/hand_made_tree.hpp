@@ -1,7 +1,7 @@
 // Five nodes whose numbers can be worked out on paper.
 #pragma once
 
-#include "bvh/binary_tree.hpp"
+#include <pah/bvh/binary_tree.hpp>
 
 namespace pah::test {
 

@@ -1,9 +1,11 @@
 // Numbers of a tree made by hand.
+#include <pah/bvh/analyze.hpp>
 #include <pah/bvh/build_config.hpp>
 
-#include "bvh/analyze.hpp"
+#include "bvh/bvh_cost.hpp"
 #include "catch.hpp"
 #include "hand_made_tree.hpp"
+#include "report/inspect_report.hpp"
 
 using namespace pah;
 
@@ -80,4 +82,25 @@ TEST_CASE("An empty tree has an empty summary") {
   CHECK(sum.levels.empty());
   CHECK(sum.mean_depth == 0);
   CHECK(sum.overlap == 0);
+}
+
+TEST_CASE("How siblings overlap as rays see them depends on where the rays run") {
+  const BinaryTree tree = test::hand_made_tree();
+  const auto seen_along = [&](const DVec3& direction) {
+    return seen_overlaps(
+        tree, make_plane_area(DVec3(2, 1, 1) - 10.0 * direction, direction, DVec2(20), 30));
+  };
+  // 1 of 4 is common to the root's children; those of its left child only touch.
+  const SeenOverlap across = seen_along(DVec3(0, 1, 0));
+  REQUIRE(across.levels.size() == 3);
+  CHECK(across.levels[0] == Approx(0.25));
+  CHECK(across.levels[1] == Approx(0).margin(1e-12));
+  CHECK(across.levels[2] == 0);
+  CHECK(across.all == Approx(0.125));
+  // Along the row of boxes all are behind one another.
+  const SeenOverlap along = seen_along(DVec3(1, 0, 0));
+  CHECK(along.levels[0] == Approx(1));
+  CHECK(along.all == Approx(1));
+  CHECK(seen_overlaps(BinaryTree{}, make_plane_area(DVec3(0), DVec3(1, 0, 0), DVec2(1), 1)).all ==
+        0);
 }

@@ -1,7 +1,7 @@
 // Experiment 1: what a heuristic says a ray will cost, and what it does cost.
+#include <pah/bvh/analyze.hpp>
 #include <pah/influence/bundle_area.hpp>
 
-#include "bvh/analyze.hpp"
 #include "report/study/local.hpp"
 
 namespace pah {

@@ -1,11 +1,10 @@
-// What can be told of a tree, or of a BVH, without rays.
+// What can be told of a BVH without rays: by visitors of one's own (thesis, 5.2), or at once.
+// pah/accel/trees.hpp has the trees.
 #pragma once
 
+#include <pah/bvh/binary_tree.hpp>
+#include <pah/bvh/box_measure.hpp>
 #include <vector>
-
-#include "bvh/binary_tree.hpp"
-#include "bvh/bvh.hpp"
-#include "bvh/heuristic.hpp"
 
 namespace pah {
 
@@ -58,11 +57,6 @@ struct TreeSummary {
 // The builder's expected cost of a ray that hits the root's box.
 [[nodiscard]] double expected_cost(const BinaryTree& tree, const BuildConfig& config,
                                    const BoxMeasure& measure);
-
-// The expected cost of traversing all that a ray meets (build_config.hpp), of rays of which those
-// that meet a box are measure(box) / whole: what rays cost that hit nothing, and the most that
-// others do. All rays visit the root.
-[[nodiscard]] double expected_cost(const Bvh& bvh, const BoxMeasure& measure, double whole);
 
 // The part of an inner node that both children claim: the measure of the intersection of their
 // boxes, relative to that of the node's. 0 if they do not touch.
