@@ -4,12 +4,13 @@
 // other such tests.
 #include <deque>
 #include <pah/accel/local_bvhs.hpp>
+#include <pah/bvh/analyze.hpp>
 #include <pah/influence/bundle_area.hpp>
 
 #include "accel/build_local.hpp"
 #include "accel/bundle_heuristic.hpp"
 #include "accel/top_level.hpp"
-#include "bvh/analyze.hpp"
+#include "bvh/bvh_cost.hpp"
 #include "catch.hpp"
 #include "geometry/ray_triangle.hpp"
 #include "report/hand_made_tree.hpp"
