@@ -73,6 +73,25 @@ TEST_CASE("PAH predicts what rays cost, within four standard errors") {
   }
 }
 
+// The thesis's 5.4.2 knows the picture plane's area only.
+TEST_CASE("Solid angle predicts what an isotropic light's rays cost, the picture plane does not") {
+  // Much of the mesh is about the axis, where such rays are dense, and little in the corners.
+  test::Soup soup = test::random_soup(300, 0.2F, Vec3{0}, 3);
+  for (const float x : {-4.5F, 4.5F})
+    for (const float z : {-4.5F, 4.5F}) soup.add({x, 0, z}, {x + 0.1F, 0, z}, {x, 0, z + 0.1F});
+  const StudyArea area{
+      "wide", StudyGroup::point_outside,
+      make_point_area({0, 5, 0}, {0, -1, 0}, DVec2(std::acos(0.0)), /*near=*/0, /*far=*/7)};
+  StudyResults results;
+  study_prediction(make_site(mesh_of(soup), area, 20'000, 5), results);
+  REQUIRE_FALSE(results.predictions.empty());
+  for (const PredictionRow& row : results.predictions) {
+    CAPTURE(row.measured, row.pah, row.pah_plane, row.standard_error);
+    CHECK(std::abs(row.pah - row.measured) < 4 * row.standard_error + 1e-4 * row.measured);
+    CHECK(row.pah_plane < row.measured - 10 * row.standard_error);
+  }
+}
+
 TEST_CASE("Rays are uniform in the measure of their area") {
   const DVec2 fov(2.2, 1.4);
   for (const PointMeasure measure : {PointMeasure::solid_angle, PointMeasure::plane}) {

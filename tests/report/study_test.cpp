@@ -106,8 +106,9 @@ TEST_CASE("The study depends on its seed, not on the threads") {
 TEST_CASE("The report has every section, and says when there are no plots") {
   const StudyResults results = small_study(1);
   const std::string text = study_markdown(results, false);
-  for (const char* section : {"## Findings", "## Prediction", "## Cost of the trees",
-                              "## Break-even", "## Building", "## Parameters"})
+  for (const char* section :
+       {"## Findings", "## Prediction", "## Cost of the trees", "## Break-even", "## Building",
+        "## Parameters", "| PAH | plane measure | unclipped | SAH |"})
     CHECK(text.find(section) != std::string::npos);
   CHECK(text.find("No plots") != std::string::npos);
   CHECK(study_markdown(results, true).find("(cost.svg)") != std::string::npos);
