@@ -11,6 +11,6 @@ shift 4
 ((n < parts)) || { echo "there is no part $n of $parts: the array is to be 0-$((parts - 1))" >&2; exit 2; }
 range=$((samples * n / parts)):$((samples * (n + 1) / parts))
 echo "part $n of $parts, samples $range; --array=$n submits it alone"
-# By exec, so that Slurm's SIGTERM comes to the program, which then saves.
+# By exec, so that --signal=B: comes to the program, which saves at SIGTERM.
 exec "${PAHRENDER:-pahrender}" "$scene" -o "$picture.part-$n.film" --samples "$range" \
   --threads "${SLURM_CPUS_PER_TASK:-1}" --checkpoint 60 --resume "$@"

@@ -169,6 +169,7 @@ rmdir picture.exr.part-3.film
 eval "${blocks[1]}"
 wait_for 120 "the picture" are_done "$merge"
 echo "merge: $(states_of "$merge"): $(cat "slurm-$merge.out")"
+must_be "the merge" "$(states_of "$merge")" "1 JobState=COMPLETED"
 whole -o whole.exr --spp 256
 same picture.exr whole.exr
 
