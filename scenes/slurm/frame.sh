@@ -1,7 +1,9 @@
 #!/usr/bin/env bash
 #SBATCH --job-name=pahrender-frame
+#SBATCH --requeue
 # One frame of an animation:
 #   sbatch --array=0-23 frame.sh SCENE frame_####.png [options of pahrender]
+# Submitted again, it renders only what is not there yet.
 set -euo pipefail
 scene=$1 pictures=$2
 shift 2

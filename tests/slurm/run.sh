@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# The job scripts of scenes/slurm on a Slurm of one node: parts of a picture and their merging,
-# frames, and a part that fails.
+# The README's commands for Slurm, with the job scripts of scenes/slurm, on a Slurm of one node: parts
+# of a picture, one of which fails and is submitted again, their merging, frames, and a part that is
+# interrupted.
 set -euo pipefail
 exec </dev/null
 
@@ -26,7 +27,8 @@ if (($# != 1)) || [[ $1 == -* ]]; then
 fi
 PAHRENDER=$(realpath "$1")
 export PAHRENDER
-scenes=$(cd "$(dirname "${BASH_SOURCE[0]}")/../../scenes" && pwd)
+source=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
+scenes=$source/scenes
 
 PATH=$PATH:/usr/sbin
 for program in munged slurmctld slurmd sbatch squeue sinfo scontrol; do
@@ -36,10 +38,21 @@ done
 
 folder=$(mktemp -d)
 chmod 755 "$folder"
+# Whatever Slurm this machine belongs to is left alone.
+unset "${!SLURM_@}" "${!SBATCH_@}"
+export SLURM_CONF=$folder/slurm.conf
 daemons=()
 clean_up() {
   local status=$?
-  if ((status != 0)); then tail -n 20 "$folder"/*.log "$folder"/*.out 2>/dev/null || true; fi
+  if ((status != 0)); then
+    timeout 10 squeue 2>&1 || true
+    tail -n 20 "$folder"/*.log "$folder"/*.out 2>/dev/null || true
+  fi
+  # Jobs would outlive slurmd.
+  if timeout 10 squeue -h -t RUNNING,COMPLETING 2>/dev/null | grep -q .; then
+    timeout 10 scancel --signal=KILL --full --user=root || true
+    wait_for 10 "the jobs to end" is_idle || true
+  fi
   for daemon in "${daemons[@]}"; do kill "$daemon" 2>/dev/null || true; done
   wait 2>/dev/null || true
   rm -rf "$folder"
@@ -74,14 +87,15 @@ daemons+=($!)
 wait_for 10 "munged" test -S "$folder/munge/socket"
 
 host=$(hostname -s)
-cat >"$folder/slurm.conf" <<CONF
+# A job that is queued again waits until its credential has expired: 120 seconds, by default.
+cat >"$SLURM_CONF" <<CONF
 ClusterName=test
 SlurmctldHost=$host(127.0.0.1)
 SlurmUser=root
 SlurmctldPort=$(free_port)
 SlurmdPort=$(free_port)
 AuthType=auth/munge
-AuthInfo=socket=$folder/munge/socket
+AuthInfo=cred_expire=5;socket=$folder/munge/socket
 StateSaveLocation=$folder/state
 SlurmdSpoolDir=$folder/spool
 SlurmctldPidFile=$folder/slurmctld.pid
@@ -98,7 +112,6 @@ MinJobAge=600
 NodeName=$host NodeAddr=127.0.0.1 CPUs=$(nproc)
 PartitionName=all Nodes=ALL Default=YES MaxTime=10 State=UP
 CONF
-export SLURM_CONF=$folder/slurm.conf
 slurmctld -D >"$folder/slurmctld.log" 2>&1 &
 daemons+=($!)
 slurmd -D >"$folder/slurmd.log" 2>&1 &
@@ -108,41 +121,95 @@ wait_for 30 "a node that is idle" is_idle
 sinfo
 
 cd "$folder"
-submit() { sbatch --parsable --output='%x-%A_%a.out' "$@"; }
-state_of() { scontrol -o show job "$1" | grep -o 'JobState=[A-Z_]*' | sort | uniq -c; }
+submit() { sbatch --parsable "$@"; }
+states_of() { scontrol -o show job "$1" | grep -o 'JobState=[A-Z_]*' | sort | uniq -c | xargs; }
 are_done() { ! squeue -h -j "$1" -t PENDING,RUNNING,COMPLETING,CONFIGURING | grep -q .; }
+fail() {
+  echo "slurm: $*" >&2
+  return 1
+}
+must_be() { [[ $2 == "$3" ]] || fail "$1: '$2' where '$3' was expected"; }
+same() { "$PAHRENDER" compare "$1" "$2" --threshold 0 >/dev/null || fail "$1 is not $2"; }
 
-scene=$scenes/cornell_box.yaml
-size=(--width 48 --height 27)
-echo "A picture of 10 samples in 4 parts:"
-parts=$(submit --array=0-3 "$scenes/slurm/part.sh" "$scene" "a picture.exr" 10 4 "${size[@]}")
+# Of the README, the blocks that name the scripts: submitting all, and one part again.
+mapfile -d '' blocks < <(awk '
+  /^```$/ {if (block ~ /scenes\/slurm/) printf "%s%c", block, 0; inside = 0; block = ""}
+  inside {block = block $0 "\n"}
+  /^```sh$/ {inside = 1}' "$source/README.md")
+must_be "the README's blocks of commands for Slurm" "${#blocks[@]}" 2
+
+# They are for a scene.yaml here: the turntable, small.
+ln -s "$scenes" scenes
+ln -s "$scenes/meshes" meshes
+sed 's/width: 480, height: 360/width: 48, height: 36/; s/samples: 64/samples: 2/' \
+  "$scenes/turntable.yaml" >scene.yaml
+whole() { "$PAHRENDER" scene.yaml --quiet "$@"; }
+
+echo "The README's commands, while part 3 cannot be written:"
+mkdir picture.exr.part-3.film
+parts='' merge=''
+eval "${blocks[0]}" >submitted
+frames=$(awk '/^Submitted batch job/ {print $4}' submitted)
+wait_for 120 "the parts and frames" are_done "$parts,$frames"
+merge_reason() { scontrol -o show job "$merge" | grep -o 'JobState=[A-Z]* Reason=[A-Za-z]*'; }
+is_held() { [[ $(merge_reason) == "JobState=PENDING Reason=DependencyNeverSatisfied" ]]; }
+wait_for 60 "the merge to be held" is_held
+echo "parts: $(states_of "$parts"); merge: $(merge_reason); frames: $(states_of "$frames")"
+must_be "the parts" "$(states_of "$parts")" "7 JobState=COMPLETED 1 JobState=FAILED"
+[[ ! -e picture.exr ]] || fail "there is a picture without part 3"
+grep -q -- '--array=3 ' "slurm-${parts}_3.out" || fail "the log of part 3 does not name it"
+grep -q 'cannot write' "slurm-${parts}_3.out" || fail "the log of part 3 does not say why it failed"
+
+must_be "the frames" "$(states_of "$frames")" "24 JobState=COMPLETED"
+whole --frames 0:24 -o whole_####.png
+for frame in frame_*.png; do same "$frame" "whole_${frame#frame_}"; done
+
+echo "The README's commands for that part again:"
+rmdir picture.exr.part-3.film
+eval "${blocks[1]}"
+wait_for 120 "the picture" are_done "$merge"
+echo "merge: $(states_of "$merge"): $(cat "slurm-$merge.out")"
+must_be "the merge" "$(states_of "$merge")" "1 JobState=COMPLETED"
+whole -o whole.exr --spp 256
+same picture.exr whole.exr
+
+echo "Frames submitted again, one of them missing:"
+rm frame_0001.png
+frames=$(submit --array=0-2 "$scenes/slurm/frame.sh" scene.yaml 'frame_####.png')
+wait_for 120 "the frames" are_done "$frames"
+must_be "the frames" "$(states_of "$frames")" "3 JobState=COMPLETED"
+cat "slurm-${frames}"_[0-2].out
+same frame_0001.png whole_0001.png
+must_be "the frames that were kept" "$(grep -l 'is there already' "slurm-${frames}"_?.out | wc -l)" 2
+
+echo "Names with blanks, and 10 samples in 4 parts of 2 CPUs:"
+parts=$(submit --array=0-3 --cpus-per-task=2 "$scenes/slurm/part.sh" scene.yaml "a picture.exr" 10 4)
 merge=$(submit --dependency=afterok:"$parts" "$scenes/slurm/merge.sh" "a picture.exr")
 wait_for 120 "the picture" are_done "$parts,$merge"
-state_of "$parts"
-state_of "$merge"
-"$PAHRENDER" "$scene" -o whole.exr --spp 10 "${size[@]}" --quiet
-"$PAHRENDER" compare "a picture.exr" whole.exr --threshold 0
+echo "parts: $(states_of "$parts"); merge: $(states_of "$merge")"
+whole -o whole.exr --spp 10
+same "a picture.exr" whole.exr
 
-echo "Three frames:"
-scene=$scenes/turntable.yaml
-frames=$(submit --array=5-7 "$scenes/slurm/frame.sh" "$scene" 'frame_####.exr' --width 48 --spp 2)
-wait_for 120 "the frames" are_done "$frames"
-state_of "$frames"
-for frame in 5 6 7; do
-  "$PAHRENDER" "$scene" -o whole.exr -D animation.frame=$frame --width 48 --spp 2 --quiet
-  "$PAHRENDER" compare "frame_000$frame.exr" whole.exr --threshold 0
-done
+echo "A part that is queued again while it runs:"
+parts=$(submit --array=0 --open-mode=append "$scenes/slurm/part.sh" scene.yaml long.exr 6000 1)
+merge=$(submit --dependency=afterok:"$parts" "$scenes/slurm/merge.sh" long.exr)
+log=slurm-${parts}_0.out
+wait_for 60 "the part to run" grep -q "starting anew" "$log"
+sleep 2
+scontrol requeue "${parts}_0"
+wait_for 120 "the picture" are_done "$parts,$merge"
+cat "$log"
+grep -q 'going on from' "$log" || fail "it did not go on"
+whole -o whole.exr --spp 6000
+same long.exr whole.exr
 
-echo "A part that fails, and what depends on it:"
-cp "$scenes/cornell_box.yaml" broken.yaml
-echo "nonsense: 1" >>broken.yaml
-parts=$(submit --array=0-1 "$scenes/slurm/part.sh" broken.yaml broken.exr 4 2 "${size[@]}")
-merge=$(submit --dependency=afterok:"$parts" "$scenes/slurm/merge.sh" broken.exr)
-has_failed() { [[ $(state_of "$parts") == *"2 JobState=FAILED"* ]]; }
-never_runs() { scontrol -o show job "$merge" | grep -q 'Reason=DependencyNeverSatisfied'; }
-wait_for 60 "the part to fail" has_failed
-wait_for 60 "the merge to be held" never_runs
-state_of "$parts"
-scontrol -o show job "$merge" | grep -o 'JobState=[A-Z]* Reason=[A-Za-z]*'
-grep -q "unknown key 'nonsense'" pahrender-part-*.out
-[[ ! -e broken.exr ]]
+touch long.exr.part-0.film.film
+if "$scenes/slurm/merge.sh" long.exr 2>merge.out; then fail "a part that is not complete was merged"; fi
+cat merge.out
+grep -q -- '--array=0 ' merge.out || fail "the part that is not complete is not named"
+
+echo "An array with more tasks than parts:"
+parts=$(submit --array=1 "$scenes/slurm/part.sh" scene.yaml many.exr 4 1)
+wait_for 60 "the part" are_done "$parts"
+must_be "part 1 of 1" "$(states_of "$parts")" "1 JobState=FAILED"
+cat "slurm-${parts}_1.out"
