@@ -3,6 +3,7 @@
 #include <pah/scene/shapes.hpp>
 
 #include "catch.hpp"
+#include "support/fewer.hpp"
 
 using namespace pah;
 
@@ -70,6 +71,8 @@ TEST_CASE("declared areas are built, derived ones are not yet worth it") {
 }
 
 TEST_CASE("lights have grids where so many rays go to them that it pays") {
+  // What sanitizers slow down more is of no interest.
+  if (test::sanitized) return;
   Scene scene = scene_with_area();
   scene.influence_areas.declared.clear();
   const std::size_t small = make_world(scene).triangles().size();
