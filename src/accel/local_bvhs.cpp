@@ -223,6 +223,7 @@ class LocalBvhsOverGlobal final : public LocalBvhs {
   [[nodiscard]] TopLevel make_top_level(const TopLevelConfig& config) const {
     if (config.kind == TopLevelKind::none || areas_.empty()) return {};
     std::vector<Region> regions;
+    regions.reserve(areas_.size());
     for (const Area& area : areas_) regions.push_back(area.region);
     if (config.kind == TopLevelKind::list) return AreaList(regions, order_);
     return AreaOctree(regions, order_, config.octree_depth);

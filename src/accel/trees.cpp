@@ -14,11 +14,11 @@ BinaryTree area_tree(const Triangles& triangles, const InfluenceArea& area,
   return std::move(local.built.tree);
 }
 
-double seen_overlap(const InfluenceArea& bundle, const Aabb& node, const Aabb& left,
+double seen_overlap(const InfluenceArea& area, const Aabb& node, const Aabb& left,
                     const Aabb& right) {
-  const double whole = area(projected_hull(bundle, node));
+  const double whole = pah::area(projected_hull(area, node));
   if (!(whole > 0)) return 0;
-  const double both = overlap_area(projected_hull(bundle, left), projected_hull(bundle, right));
+  const double both = overlap_area(projected_hull(area, left), projected_hull(area, right));
   return std::min(1.0, both / whole);
 }
 

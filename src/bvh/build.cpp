@@ -116,7 +116,7 @@ class Splitter {
     const BuildHeuristic& heuristic =
         depth >= heuristic_.deeper_from ? *heuristic_.deeper : heuristic_;
     const Found found = heuristic.search
-                            ? search(range, box, centroids, heuristic)
+                            ? search(range, box, centroids, heuristic, *heuristic.search)
                             : find(range, centroids, heuristic.axes(box.aabb()), heuristic);
     const Split& best = found.split;
     if (leaf_allowed) {
@@ -156,10 +156,9 @@ class Splitter {
   }
 
   [[nodiscard]] Found search(const Range& range, const Box4& box, const Box4& centroids,
-                             const BuildHeuristic& heuristic) const {
-    const AxisSearch& search = *heuristic.search;
+                             const BuildHeuristic& heuristic, const AxisSearch& search) const {
     const float whole = measure_of(heuristic.measure, box.aabb());
-    std::optional<Found> best;
+    std::unique_ptr<Found> best;
     const auto ratio = [&] {
       if (!best || best->split.bin == 0) return std::numeric_limits<double>::infinity();
       const SplitBoxes sides = best->bins.at(best->split);
@@ -169,7 +168,8 @@ class Splitter {
     };
     const auto try_axes = [&](AxisMask axes) {
       Found found = find(range, centroids, axes, heuristic);
-      if (!best || found.split.cost < best->split.cost) best.emplace(std::move(found));
+      if (!best || found.split.cost < best->split.cost)
+        best = std::make_unique<Found>(std::move(found));
     };
     AxisMask good = 0, tried = 0;
     const std::array<RatedAxis, 3> rated = search.rate(box.aabb());

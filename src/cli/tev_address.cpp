@@ -21,9 +21,8 @@ bool consists_of(std::string_view text, std::initializer_list<std::string_view> 
 // From 1 on: 0 is not a port that anything listens on.
 std::optional<std::uint16_t> parse_port(std::string_view text) {
   std::uint16_t port = 0;
-  const char* const end = text.data() + text.size();
-  const auto [next, error] = std::from_chars(text.data(), end, port);
-  if (error != std::errc{} || next != end || port == 0) return std::nullopt;
+  const auto [next, error] = std::from_chars(text.data(), text.data() + text.size(), port);
+  if (error != std::errc{} || next != text.data() + text.size() || port == 0) return std::nullopt;
   return port;
 }
 
