@@ -58,7 +58,7 @@ class Frame {
     }
     YamlRef result = copy ? copy : node;
     if (!is_keyframes(*result)) return result;
-    YamlRef value = read_keyframes(context_, result.get(), now_.frame);
+    const YamlRef value = read_keyframes(context_, result.get(), now_.frame);
     return value ? value : result;
   }
 
