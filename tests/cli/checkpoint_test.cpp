@@ -143,7 +143,7 @@ TEST_CASE("a pass that is interrupted goes on with the tiles that lack it") {
                     "-D",
                     "film.channels=[albedo,normal,depth,variance]"};
   bool behind = false;
-  for (int attempt = 0; attempt < 5 && !behind; ++attempt) {
+  for (int attempt = 0; attempt < 20 && !behind; ++attempt) {
     interrupt(large + Words{"-o", "out.exr", "--spp", "1000000", "--checkpoint", "1000"});
     behind = !pah::read_film(checkpoint).samples.behind.empty();
   }
