@@ -1,0 +1,25 @@
+// What the values of options may be.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "cli/render_command.hpp"
+
+namespace pah::cli {
+
+// "X0,X1,Y0,Y1" of a rectangle that is not empty.
+[[nodiscard]] std::optional<PixelRect> parse_crop(std::string_view text);
+
+// "FROM:TO" of at least one, with TO at most 2^30.
+[[nodiscard]] std::optional<IndexRange> parse_range(const std::string& text);
+// The same, or one number.
+[[nodiscard]] std::optional<IndexRange> parse_frames(const std::string& text);
+
+[[nodiscard]] CLI::Validator finite_number(double low);
+[[nodiscard]] CLI::Validator whole_number(int low, int high);
+[[nodiscard]] CLI::Validator accelerator_name();
+
+}  // namespace pah::cli
