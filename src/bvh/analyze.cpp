@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <pah/bvh/analyze.hpp>
 
 namespace pah {
@@ -20,6 +21,29 @@ double sibling_overlap(const NodeVisit& visit, const BoxMeasure& measure) {
   const Aabb both{glm::max(left.min, right.min), glm::min(left.max, right.max)};
   const double whole = double{measure_of(measure, visit.node().box)};
   return both.empty() || !(whole > 0) ? 0 : double{measure_of(measure, both)} / whole;
+}
+
+TreeBalance balance_of(const BinaryTree& tree) {
+  TreeBalance balance;
+  std::vector<std::uint32_t> triangles(tree.nodes.size());
+  for (std::size_t i = tree.nodes.size(); i-- > 0;) {  // children stand behind their parents
+    const BinaryTree::Node& node = tree.nodes[i];
+    triangles[i] = node.count;
+    if (node.leaf()) continue;
+    const std::uint32_t left = triangles[node.first], right = triangles[node.first + 1];
+    triangles[i] = left + right;
+    if (triangles[i] < TreeBalance::least_triangles) continue;
+    const double share =
+        static_cast<double>(std::min(left, right)) / static_cast<double>(triangles[i]);
+    balance.smallest_share = balance.nodes == 0 ? share : std::min(balance.smallest_share, share);
+    ++balance.nodes;
+    balance.smaller_share += share;
+    if (share < TreeBalance::lopsided_below) ++balance.lopsided;
+  }
+  if (balance.nodes == 0) return balance;
+  balance.smaller_share /= static_cast<double>(balance.nodes);
+  balance.lopsided /= static_cast<double>(balance.nodes);
+  return balance;
 }
 
 TreeSummary summarize(const BinaryTree& tree, const BoxMeasure& measure) {
@@ -52,6 +76,7 @@ TreeSummary summarize(const BinaryTree& tree, const BoxMeasure& measure) {
     sum.max_depth = sum.levels.empty() ? 0 : static_cast<std::uint32_t>(sum.levels.size() - 1);
     sum.mean_depth = mean(sum.mean_depth, sum.leaves);
     sum.overlap = mean(sum.overlap, sum.nodes - sum.leaves);
+    sum.balance = balance_of(tree);
     return sum;
   });
 }

@@ -86,11 +86,11 @@ void Bins::add(const Bins& other) {
   }
 }
 
-Split Bins::cheapest(const Binning& binning, const BoxMeasure& measure,
-                     std::uint32_t side_by_side) const {
+Split Bins::cheapest(const Binning& binning, const BoxMeasure& measure, std::uint32_t side_by_side,
+                     std::uint32_t least) const {
   Split best;
   for (int axis = 0; axis < 3; ++axis) {
-    if (binning.splits(axis)) sweep(axis, measure, side_by_side, best);
+    if (binning.splits(axis)) sweep(axis, measure, side_by_side, least, best);
   }
   return best;
 }
@@ -129,7 +129,7 @@ Split Bins::cheapest_by_area(const Binning& binning, std::uint32_t side_by_side)
 }
 
 void Bins::sweep(int axis, const BoxMeasure& measure, std::uint32_t side_by_side,
-                 Split& best) const {
+                 std::uint32_t least, Split& best) const {
   // What is left and right of a split before bin i stands at i - 1 of either half.
   constexpr std::size_t size = std::size_t{2} * BuildConfig::max_bins;
   // Kept for each thread: clearing it costs more than most nodes do.
@@ -150,7 +150,7 @@ void Bins::sweep(int axis, const BoxMeasure& measure, std::uint32_t side_by_side
   const std::size_t noted = std::size_t{2} * splits;
   measure(std::span(boxes).first(noted), std::span(measures).first(noted));
   for (std::uint32_t i = 0; i < splits; ++i) {
-    if (counts[i] == 0 || counts[splits + i] == 0) continue;
+    if (counts[i] < least || counts[splits + i] < least) continue;
     const float right_cost = measures[splits + i] * leaf_cost(counts[splits + i], side_by_side);
     const float cost = measures[i] * leaf_cost(counts[i], side_by_side) + right_cost;
     if (cost < best.cost) best = {cost, axis, i + 1};

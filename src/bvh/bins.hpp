@@ -62,10 +62,11 @@ class Bins {
   void add(std::span<const Item> items, const Binning& binning);
   void add(const Bins& other);
 
-  // By surface area, or by any measure. Ties go to the first axis, then to the first bin.
+  // By surface area, or by any measure. Ties go to the first axis, then to the first bin. No side
+  // has less than `least` items.
   [[nodiscard]] Split cheapest_by_area(const Binning& binning, std::uint32_t side_by_side) const;
   [[nodiscard]] Split cheapest(const Binning& binning, const BoxMeasure& measure,
-                               std::uint32_t side_by_side) const;
+                               std::uint32_t side_by_side, std::uint32_t least = 1) const;
   [[nodiscard]] SplitBoxes at(const Split& split) const;
 
  private:
@@ -74,7 +75,8 @@ class Bins {
     return std::bit_cast<Int4>(counts_[bin]);
   }
   void clear(std::uint32_t bins);
-  void sweep(int axis, const BoxMeasure& measure, std::uint32_t side_by_side, Split& best) const;
+  void sweep(int axis, const BoxMeasure& measure, std::uint32_t side_by_side, std::uint32_t least,
+             Split& best) const;
 
   static constexpr std::size_t axes = 3;
   std::uint32_t used_;

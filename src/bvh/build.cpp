@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
 #include <functional>
 #include <memory>
 #include <numeric>
@@ -86,6 +87,7 @@ class Splitter {
       : bins_(std::clamp(config.bins, BuildConfig::min_bins, BuildConfig::max_bins)),
         max_leaf_(std::max(config.max_leaf, 1U)),
         side_by_side_(std::max(config.side_by_side, 1U)),
+        least_share_(std::clamp(config.least_share, 0.0, 0.5)),
         leaves_(config.leaves),
         last_level_(config.leaves.levels > 0 ? std::min(config.leaves.levels, max_cost_depth)
                                              : max_cost_depth),
@@ -140,6 +142,10 @@ class Splitter {
            probability * double{leaf_cost(count, side_by_side_)} < leaves_.cost;
   }
 
+  [[nodiscard]] std::uint32_t least_of(std::uint32_t count) const {
+    return std::max(1U, static_cast<std::uint32_t>(std::ceil(least_share_ * count)));
+  }
+
   // The cheapest split of the axes.
   [[nodiscard]] Found find(const Range& range, const Box4& centroids, AxisMask axes,
                            const BuildHeuristic& heuristic) const {
@@ -149,9 +155,10 @@ class Splitter {
     Found found{binning, Bins(bins_used), chunks_of(range, binning), {}};
     if (found.chunks.empty()) found.bins.add(range.span(), binning);
     for (const Bins& chunk : found.chunks) found.bins.add(chunk);
-    found.split = heuristic.by_area()
-                      ? found.bins.cheapest_by_area(binning, side_by_side_)
-                      : found.bins.cheapest(binning, heuristic.measure, side_by_side_);
+    found.split =
+        heuristic.by_area() && least_share_ == 0
+            ? found.bins.cheapest_by_area(binning, side_by_side_)
+            : found.bins.cheapest(binning, heuristic.measure, side_by_side_, least_of(range.count));
     return found;
   }
 
@@ -254,6 +261,7 @@ class Splitter {
   std::uint32_t bins_;
   std::uint32_t max_leaf_;
   std::uint32_t side_by_side_;
+  double least_share_;
   LeafRules leaves_;
   std::uint32_t last_level_;
   const BuildHeuristic& heuristic_;

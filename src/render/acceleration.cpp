@@ -37,6 +37,7 @@ LocalConfig local_config(const AccelerationSettings& settings) {
   config.split = settings.split_axis;
   config.build.bins = static_cast<std::uint32_t>(settings.bins);
   config.build.max_leaf = static_cast<std::uint32_t>(settings.max_leaf_triangles);
+  config.build.least_share = settings.least_share;
   config.build.leaves = settings.leaves;
   config.facing = settings.facing;
   config.non_fallback_levels = settings.non_fallback_levels.value_or(config.non_fallback_levels);

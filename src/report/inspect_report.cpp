@@ -52,6 +52,10 @@ std::string bvh_text(const BvhReport& bvh) {
   line("nodes", fmt::format("{}, of which {} leaves; {} eight-wide", tree.nodes, tree.leaves,
                             bvh.wide_nodes));
   line("depth of leaves", fmt::format("at most {}, mean {:.1f}", tree.max_depth, tree.mean_depth));
+  line("balance",
+       fmt::format("smaller children have {:.0f} %, mean; {:.1f} % of nodes below {:.0f} %",
+                   100 * tree.balance.smaller_share, 100 * tree.balance.lopsided,
+                   100 * TreeBalance::lopsided_below));
   line("expected cost", fmt::format("{:.2f}, by SAH {:.2f}", bvh.expected_cost, bvh.surface_cost));
   line("overlap", fmt::format("{:.1f} % of the parent, mean", 100 * tree.overlap));
   if (bvh.seen)
@@ -91,6 +95,10 @@ JsonValue bvh_json(const BvhReport& bvh) {
                  {"leaves", tree.leaves},
                  {"wide_nodes", bvh.wide_nodes},
                  {"depth", {{"max", tree.max_depth}, {"mean", tree.mean_depth}}},
+                 {"balance",
+                  {{"smaller_share", tree.balance.smaller_share},
+                   {"smallest_share", tree.balance.smallest_share},
+                   {"lopsided", tree.balance.lopsided}}},
                  {"expected_cost", bvh.expected_cost},
                  {"surface_cost", bvh.surface_cost},
                  {"overlap", tree.overlap},
@@ -191,6 +199,9 @@ std::string inspect_csv(const InspectReport& report) {
     row("wide_nodes", "", bvh.wide_nodes);
     row("max_depth", "", tree.max_depth);
     row("mean_depth", "", tree.mean_depth);
+    row("smaller_share", "", tree.balance.smaller_share);
+    row("smallest_share", "", tree.balance.smallest_share);
+    row("lopsided", "", tree.balance.lopsided);
     row("expected_cost", "", bvh.expected_cost);
     row("surface_cost", "", bvh.surface_cost);
     row("overlap", "", tree.overlap);

@@ -118,9 +118,11 @@ TEST_CASE("acceleration settings reach the builder") {
   settings.split_axis = SplitAxis::facing;
   settings.bins = 7;
   settings.max_leaf_triangles = 3;
+  settings.least_share = 0.25;
   const LocalConfig config = local_config(settings);
   CHECK(config.heuristic == Heuristic::projected_area);
   CHECK(config.split == SplitAxis::facing);
   CHECK(config.build.bins == 7);
   CHECK(config.build.max_leaf == 3);
+  CHECK(config.build.least_share == 0.25);
 }

@@ -76,6 +76,21 @@ TEST_CASE("Siblings apart do not overlap, nor do those of a box without area") {
   CHECK(summarize(tree, each_box(SurfaceArea{})).overlap == 0);
 }
 
+TEST_CASE("The balance of a tree is that of its large nodes") {
+  BinaryTree tree = test::hand_made_tree();
+  CHECK(balance_of(tree).nodes == 0);
+  CHECK(balance_of(tree).smaller_share == 0);
+  // 2 and 98 of 100 below one of two sides of 100 and 300.
+  tree.nodes[3].count = 2;
+  tree.nodes[4].count = 98;
+  tree.nodes[2].count = 300;
+  const TreeBalance balance = balance_of(tree);
+  CHECK(balance.nodes == 2);
+  CHECK(balance.smaller_share == Approx((0.25 + 0.02) / 2));
+  CHECK(balance.smallest_share == Approx(0.02));
+  CHECK(balance.lopsided == 0.5);
+}
+
 TEST_CASE("An empty tree has an empty summary") {
   const TreeSummary sum = summarize(BinaryTree{}, each_box(SurfaceArea{}));
   CHECK(sum.nodes == 0);

@@ -63,10 +63,14 @@ TEST_CASE("The study's tables have their columns, a row for each tree") {
   check_table(prediction_csv(results),
               tree + "measured,standard_error,closest_hit,pah,pah_plane_measure,pah_unclipped,sah",
               2 * areas);
-  check_table(cost_csv(results), tree + "closest_hit,all_nodes,kernel,hit_share,break_even_share",
-              9 * areas);
+  check_table(
+      cost_csv(results),
+      tree +
+          "closest_hit,all_nodes,kernel,hit_share,break_even_share,mean_depth,max_depth,lopsided",
+      9 * areas);
   check_table(build_csv(results), tree + "build_cpu_seconds", 9 * areas);
-  check_table(sweep_csv(results), tree + "parameter,value,cost,over_default", 2 * (2 * 11));
+  check_table(sweep_csv(results), tree + "parameter,value,cost,over_default,lopsided",
+              2 * (2 * 44));
   CHECK(cost_csv(results).find("\"a \"\"soup\"\", with a comma\",") != std::string::npos);
 }
 
@@ -107,8 +111,8 @@ TEST_CASE("The report has every section, and says when there are no plots") {
   const StudyResults results = small_study(1);
   const std::string text = study_markdown(results, false);
   for (const char* section :
-       {"## Findings", "## Prediction", "## Cost of the trees", "## Break-even", "## Building",
-        "## Parameters", "| PAH | plane measure | unclipped | SAH |"})
+       {"## Findings", "## Prediction", "## Cost of the trees", "## Break-even", "## Balance",
+        "## Building", "## Parameters", "| PAH | plane measure | unclipped | SAH |"})
     CHECK(text.find(section) != std::string::npos);
   CHECK(text.find("No plots") != std::string::npos);
   CHECK(study_markdown(results, true).find("(cost.svg)") != std::string::npos);

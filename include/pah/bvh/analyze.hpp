@@ -43,6 +43,18 @@ struct TreeLevel {
   double overlap = 0;  // mean over the inner nodes; see sibling_overlap
 };
 
+// How evenly inner nodes share their triangles out. Of nodes of at least `least_triangles`: smaller
+// ones have no choice but to be uneven.
+struct TreeBalance {
+  static constexpr std::uint32_t least_triangles = 64;
+  static constexpr double lopsided_below = 1.0 / 16;
+
+  std::uint64_t nodes = 0;   // of so many triangles
+  // What the smaller child has, of all of a node: the mean over these, and the least; in (0, 0.5].
+  double smaller_share = 0, smallest_share = 0;
+  double lopsided = 0;  // the part of these whose smaller child has less than `lopsided_below`
+};
+
 struct TreeSummary {
   std::uint64_t triangles = 0;
   std::uint64_t nodes = 0;  // leaves among them
@@ -52,6 +64,7 @@ struct TreeSummary {
   std::vector<std::uint64_t> leaf_sizes;  // [n]: how many leaves have n triangles
   std::vector<TreeLevel> levels;          // by depth
   double overlap = 0;                     // mean over all inner nodes
+  TreeBalance balance;
 };
 
 // The builder's expected cost of a ray that hits the root's box.
@@ -61,6 +74,8 @@ struct TreeSummary {
 // The part of an inner node that both children claim: the measure of the intersection of their
 // boxes, relative to that of the node's. 0 if they do not touch.
 [[nodiscard]] double sibling_overlap(const NodeVisit& visit, const BoxMeasure& measure);
+
+[[nodiscard]] TreeBalance balance_of(const BinaryTree& tree);
 
 [[nodiscard]] TreeSummary summarize(const BinaryTree& tree, const BoxMeasure& measure);
 

@@ -82,6 +82,9 @@ struct BuildConfig {
   std::uint32_t max_leaf = 8;
   // Triangles tested at a time, at least 1.
   std::uint32_t side_by_side = 4;
+  // Of a node's triangles, that each child has at least, in [0, 0.5]: splits that would leave one
+  // less are passed over, and a node without others is halved.
+  double least_share = 0;
   LeafRules leaves;
 };
 

@@ -84,6 +84,7 @@ struct AccelerationSettings {
   // Of local BVHs: see BuildConfig, whose ranges and defaults these are.
   int bins = static_cast<int>(BuildConfig{}.bins);
   int max_leaf_triangles = static_cast<int>(BuildConfig{}.max_leaf);
+  double least_share = BuildConfig{}.least_share;
   LeafRules leaves;
   FacingRules facing;
   std::optional<std::uint32_t> non_fallback_levels;  // see LocalConfig

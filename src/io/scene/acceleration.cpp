@@ -101,6 +101,7 @@ void read_acceleration(SceneReading& reading, const YamlNode* node) {
                                     {"facing", SplitAxis::facing}});
     map.optional("bins", settings.bins, int{BuildConfig::min_bins}, int{BuildConfig::max_bins});
     map.optional("max_leaf_triangles", settings.max_leaf_triangles, 1, int{BuildConfig::most_leaf});
+    map.optional("least_share", settings.least_share, Range{0, 0.5, false, false});
     read_leaf_rules(map, settings.leaves);
     map.optional("facing_threshold", settings.facing.threshold, unit_range);
     map.optional("acceptable_ratio", settings.facing.acceptable_ratio, ratio_range);

@@ -1,7 +1,9 @@
 // Experiments 2 and 4: the trees of all heuristics and all choices of axes, compared by what a
 // bundle's rays cost, and by the share of rays that must hit in the area: a ray
 // costs local + (1 - share) * global instead of global.
+#include <cmath>
 #include <ctime>
+#include <pah/bvh/analyze.hpp>
 
 #include "report/study/local.hpp"
 
@@ -36,6 +38,12 @@ void study_cost(const StudySite& site, const BuiltBvh& global,
       row.all = count_all(site.on(built.tree, config.build), site.rays).mean();
       row.kernel = kernel_cost(built.bvh, site.rays, config.build.side_by_side);
       row.hit_share = tally.hit_share();
+      const TreeSummary summary = summarize(built.tree, each_box(SurfaceArea{}));
+      row.mean_depth = summary.leaves > 1
+                           ? summary.mean_depth / std::log2(static_cast<double>(summary.leaves))
+                           : 1;
+      row.max_depth = summary.max_depth;
+      row.lopsided = summary.balance.lopsided;
       row.break_even = global_cost > 0 ? tally.mean_of_all() / global_cost : 0;
       results.costs.push_back(row);
     }

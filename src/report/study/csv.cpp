@@ -39,11 +39,14 @@ std::string prediction_csv(const StudyResults& results) {
 }
 
 std::string cost_csv(const StudyResults& results) {
-  std::string csv =
-      fmt::format("{},closest_hit,all_nodes,kernel,hit_share,break_even_share\n", case_columns);
+  std::string csv = fmt::format(
+      "{},closest_hit,all_nodes,kernel,hit_share,break_even_share,mean_depth,max_depth,"
+      "lopsided\n",
+      case_columns);
   for (const CostRow& row : results.costs)
-    csv += fmt::format("{},{:.6g},{:.6g},{:.6g},{:.5g},{:.5g}\n", cells(row.tree), row.closest,
-                       row.all, row.kernel, row.hit_share, row.break_even);
+    csv += fmt::format("{},{:.6g},{:.6g},{:.6g},{:.5g},{:.5g},{:.5g},{},{:.5g}\n", cells(row.tree),
+                       row.closest, row.all, row.kernel, row.hit_share, row.break_even,
+                       row.mean_depth, row.max_depth, row.lopsided);
   return csv;
 }
 
@@ -55,10 +58,10 @@ std::string build_csv(const StudyResults& results) {
 }
 
 std::string sweep_csv(const StudyResults& results) {
-  std::string csv = fmt::format("{},parameter,value,cost,over_default\n", case_columns);
+  std::string csv = fmt::format("{},parameter,value,cost,over_default,lopsided\n", case_columns);
   for (const SweepRow& row : results.sweeps)
-    csv += fmt::format("{},{},{:g},{:.6g},{:.5g}\n", cells(row.tree), row.parameter, row.value,
-                       row.cost, row.over_default);
+    csv += fmt::format("{},{},{:g},{:.6g},{:.5g},{:.5g}\n", cells(row.tree), row.parameter,
+                       row.value, row.cost, row.over_default, row.lopsided);
   return csv;
 }
 

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cmath>
+#include <pah/bvh/analyze.hpp>
 
 #include "report/study/means.hpp"
 
@@ -73,13 +74,13 @@ class GroupCosts {
 Finding pah_alone(const StudyResults& results) {
   std::size_t better = 0;
   std::size_t compared = 0;
-  // The rows of an area are in the order of study_variants.
-  for (std::size_t i = 0; i + 5 < results.costs.size(); i += 6) {
-    for (const std::size_t split : {std::size_t{0}, std::size_t{1}}) {
+  for (const auto& [pah, sah] :
+       {std::pair{pah_longest, sah_longest}, std::pair{pah_best, sah_best}})
+    for (const CostRow& row : relative_costs(results.costs, sah, &CostRow::closest)) {
+      if (!pah.built(row)) continue;
       ++compared;
-      better += results.costs[i + 3 + split].closest < results.costs[i + split].closest ? 1 : 0;
+      better += row.closest < 1 ? 1 : 0;
     }
-  }
   return {"PAH without SPFH never builds a better tree than SAH",
           fmt::format("cheaper in {} of {} comparisons; mean PAH/SAH {:.3f} (best axis), {:.3f} "
                       "(longest); all nodes {:.3f}, {:.3f}",
@@ -114,6 +115,37 @@ Finding builds(const StudyResults& results) {
           ratio >= 5 && ratio <= 20};
 }
 
+// Splits along the rays, which only a search of the longest axis has to make, tell PAH nothing.
+Finding unbalance(const StudyResults& results) {
+  const auto lopsided = [&](const StudyVariant& variant) {
+    return 100 * mean_of(
+                     results.costs,
+                     [&](const CostRow& row) {
+                       return variant.built(row) && row.tree.group == StudyGroup::plane_axis;
+                     },
+                     [](const CostRow& row) { return row.lopsided; });
+  };
+  const auto bounded = [&](double least_share) {
+    return mean_of(
+        results.sweeps,
+        [&](const SweepRow& row) {
+          return row.tree.heuristic == Heuristic::projected_area &&
+                 row.parameter == "least_share" && row.value == least_share;
+        },
+        [](const SweepRow& row) { return row.over_default; });
+  };
+  const double longest = lopsided(pah_longest), sah = lopsided(sah_longest);
+  const double best = lopsided(pah_best), kept = bounded(1.0 / 16);
+  return {
+      "PAH's greedy minimum is one tiny and one huge child where projections overlap",
+      fmt::format("along an axis {:.1f} % of splits leave a child less than {:g} % (SAH {:.1f} %)"
+                  " with the longest axis, {:.1f} % with the best; leaving each child at least "
+                  "{:g} % changes the cost by {:+.1f} %",
+                  longest, 100 * TreeBalance::lopsided_below, sah, best,
+                  100 * TreeBalance::lopsided_below, 100 * (kept - 1)),
+      longest > sah};
+}
+
 std::vector<Finding> findings(const StudyResults& results) {
   const double plane = error_of(results, &PredictionRow::pah, true, false);
   const double point = error_of(results, &PredictionRow::pah, false, true);
@@ -135,6 +167,7 @@ std::vector<Finding> findings(const StudyResults& results) {
       {"PAH + SPFH is cheaper than SAH + longest axis only where rays run along an axis",
        pah_spfh.text(), pah_spfh.cheaper_along_axis() && pah_spfh.lowest_elsewhere() >= 1},
       pah_alone(results),
+      unbalance(results),
       {"SAH + SPFH is better than SAH + longest axis along an axis, and no worse elsewhere",
        sah_spfh.text(), sah_spfh.cheaper_along_axis() && sah_spfh.highest_elsewhere() <= 1},
       builds(results)};

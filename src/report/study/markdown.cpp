@@ -132,6 +132,17 @@ std::string break_even(const StudyResults& results) {
   return text + "\n";
 }
 
+std::string balance(const StudyResults& results) {
+  std::string text =
+      "## Balance\n\n"
+      "The part of nodes, of those with 64 triangles and more, whose smaller child has less than "
+      "a\n"
+      "sixteenth of them:\n\n";
+  text += variants_table(results, results.costs, &CostRow::lopsided);
+  text += "Mean depth of leaves, over the least that a tree of so many leaves can have:\n\n";
+  return text + variants_table(results, results.costs, &CostRow::mean_depth);
+}
+
 std::string builds(const StudyResults& results) {
   return "## Building\n\n"
          "CPU seconds relative to SAH + best axis. These alone are measured, not counted.\n\n" +
@@ -141,9 +152,10 @@ std::string builds(const StudyResults& results) {
 std::string sweeps(const StudyResults& results) {
   std::string text =
       "## Parameters\n\n"
-      "One at a time, the others at their defaults (16 bins, leaves of up to 8 triangles, facing\n"
-      "threshold 0.5): nearest-hit cost relative to the default, mean over the meshes. Bins and\n"
-      "leaves with the best axis, the threshold with SPFH.\n\n";
+      "One at a time, the others at their defaults (16 bins, leaves of up to 8 triangles, no rule\n"
+      "for smaller ones, no fallback, facing threshold 0.5, ratios 2 and 0, no least share):\n"
+      "nearest-hit cost relative to the default, mean over the meshes. `inf` is never. Facing and\n"
+      "ratios with SPFH, the least share with the longest axis, all others with the best.\n\n";
   std::vector<std::string> areas;
   std::vector<std::pair<std::string, double>> settings;
   for (const SweepRow& row : results.sweeps) {
@@ -198,8 +210,8 @@ std::string study_markdown(const StudyResults& results, bool with_plots) {
   else
     text +=
         "No plots: gnuplot was not found or failed. Its scripts are here: run gnuplot *.gp.\n\n";
-  return text + predictions(results) + costs(results) + break_even(results) + builds(results) +
-         sweeps(results) + rates_markdown(results, with_plots);
+  return text + predictions(results) + costs(results) + break_even(results) + balance(results) +
+         builds(results) + sweeps(results) + rates_markdown(results, with_plots);
 }
 
 }  // namespace pah

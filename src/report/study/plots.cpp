@@ -76,9 +76,10 @@ std::string cost_plot(const StudyResults& results) {
     }
     text += "\n";
   }
-  return text +
-         "EOD\nset datafile missing '?'\n"
-         "plot for [i=2:7] $costs using i:xtic(1) title columnheader(i)\n";
+  return text + fmt::format(
+                    "EOD\nset datafile missing '?'\n"
+                    "plot for [i=2:{}] $costs using i:xtic(1) title columnheader(i)\n",
+                    1 + std::size(study_variants));
 }
 
 std::string sweep_plot(const StudyResults& results) {

@@ -76,6 +76,9 @@ struct CostRow {
   double hit_share = 0;      // of all rays of the bundle
   double break_even = 0;     // the share that must hit lest the global BVH alone be cheaper
   double build_seconds = 0;  // CPU time
+  double mean_depth = 0;     // of leaves, over the least that as many leaves can have
+  std::uint32_t max_depth = 0;
+  double lopsided = 0;  // see TreeBalance
 };
 
 struct SweepRow {
@@ -84,6 +87,7 @@ struct SweepRow {
   double value = 0;
   double cost = 0;
   double over_default = 0;
+  double lopsided = 0;
 };
 
 // One measurement of one accelerator on the rays that a render of a scene asked.

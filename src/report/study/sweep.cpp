@@ -1,4 +1,8 @@
-// Experiment 3: one parameter of the build at a time, the others at their defaults.
+// Experiment 3: one parameter of the build at a time, the others at their defaults. Those of
+// leaves by area are left out: they are those by chance, times an area that depends on the mesh.
+#include <limits>
+#include <pah/bvh/analyze.hpp>
+
 #include "report/study/local.hpp"
 
 namespace pah {
@@ -12,27 +16,80 @@ struct Parameter {
   void (*set)(LocalConfig&, double);
 };
 
+constexpr double never = std::numeric_limits<double>::infinity();
+
+std::uint32_t whole(double value) { return static_cast<std::uint32_t>(value); }
+
 const std::vector<Parameter>& parameters() {
+  using Config = LocalConfig;
   static const std::vector<Parameter> all{
       {"bins",
        SplitAxis::best,
        16,
        {4, 8, 16, 32},
-       [](LocalConfig& c, double v) { c.build.bins = static_cast<std::uint32_t>(v); }},
+       [](Config& c, double v) { c.build.bins = whole(v); }},
       {"max_leaf",
        SplitAxis::best,
        8,
        {1, 2, 4, 8},
-       [](LocalConfig& c, double v) { c.build.max_leaf = static_cast<std::uint32_t>(v); }},
-      {"facing_threshold", SplitAxis::facing, 0.5, {0.3, 0.5, 0.7}, [](LocalConfig& c, double v) {
-         c.facing.threshold = v;
-       }}};
+       [](Config& c, double v) { c.build.max_leaf = whole(v); }},
+      {"min_inner_triangles",
+       SplitAxis::best,
+       0,
+       {0, 6, 9},
+       [](Config& c, double v) { c.build.leaves.triangles = whole(v); }},
+      {"max_leaf_cost",
+       SplitAxis::best,
+       0,
+       {0, 1e-4, 1e-3, 1e-2},
+       [](Config& c, double v) { c.build.leaves.cost = v; }},
+      {"max_leaf_probability",
+       SplitAxis::best,
+       0,
+       {0, 1e-4, 1e-3, 1e-2},
+       [](Config& c, double v) { c.build.leaves.probability = v; }},
+      {"max_levels",
+       SplitAxis::best,
+       0,
+       {0, 12, 15, 18},
+       [](Config& c, double v) { c.build.leaves.levels = whole(v); }},
+      {"non_fallback_levels",
+       SplitAxis::best,
+       never,
+       {0, 4, 8, 12, never},
+       [](Config& c, double v) {
+         if (v < never) c.non_fallback_levels = whole(v);
+       }},
+      {"facing_threshold",
+       SplitAxis::facing,
+       0.5,
+       {0.3, 0.5, 0.7},
+       [](Config& c, double v) { c.facing.threshold = v; }},
+      {"acceptable_ratio",
+       SplitAxis::facing,
+       2,
+       {1, 1.25, 1.5, 2},
+       [](Config& c, double v) { c.facing.acceptable_ratio = v; }},
+      {"excellent_ratio",
+       SplitAxis::facing,
+       0,
+       {0, 1, 1.25, 1.5},
+       [](Config& c, double v) { c.facing.excellent_ratio = v; }},
+      {"least_share",
+       SplitAxis::longest,
+       0,
+       {0, 1.0 / 32, 1.0 / 16, 1.0 / 8, 1.0 / 4},
+       [](Config& c, double v) { c.build.least_share = v; }}};
   return all;
 }
 
-double cost_of(const StudySite& site, const LocalConfig& config) {
+SweepRow measure(const StudySite& site, const LocalConfig& config) {
   const BinaryTree tree = build_local(site, config).tree;
-  return count_closest(site.on(tree, config.build), site.rays).mean();
+  SweepRow row;
+  row.tree = site.named(config);
+  row.cost = count_closest(site.on(tree, config.build), site.rays).mean();
+  row.lopsided = balance_of(tree).lopsided;
+  return row;
 }
 
 }  // namespace
@@ -47,11 +104,9 @@ void study_sweep(const StudySite& site, StudyResults& results) {
         config.heuristic = heuristic;
         config.split = parameter.split;
         parameter.set(config, value);
-        SweepRow row;
-        row.tree = site.named(config);
+        SweepRow row = measure(site, config);
         row.parameter = parameter.name;
         row.value = value;
-        row.cost = cost_of(site, config);
         if (value == parameter.default_value) default_cost = row.cost;
         results.sweeps.push_back(row);
       }
