@@ -78,7 +78,7 @@ const char* heuristic_name(Heuristic heuristic) {
 }
 
 BvhReport report_local(const World& world, const SceneArea& area, const LocalConfig& config,
-                       const Bvh& global) {
+                       const Bvh& global, const AreaRayCosts& rays) {
   const BuiltLocalBvh local = build_local_bvh(world.triangles(), area.area, config);
   const BoxMeasure probability = each_box(HitProbability(area.area));
   return {.name = area.name,
@@ -90,9 +90,26 @@ BvhReport report_local(const World& world, const SceneArea& area, const LocalCon
           .camera_rays = std::nullopt,
           .bundle =
               BundleCosts{bundle_cost(local.built.bvh, area.area), bundle_cost(global, area.area)},
+          .area_rays = rays,
           .seen = seen_overlaps(local.built.tree, area.area),
           .memory_bytes = local.built.bvh.memory_bytes(),
           .build_seconds = local.seconds};
+}
+
+void report_areas(InspectReport& report, const World& world, const Acceleration& acceleration,
+                  const Scene& scene, bool all, const Bvh& global) {
+  std::vector<SceneArea> areas;
+  std::vector<LocalArea> built;
+  for (std::size_t i = 0; i < acceleration.areas.size(); ++i) {
+    if (!acceleration.plans[i].build && !all) continue;
+    areas.push_back(acceleration.areas[i]);
+    built.push_back(local_area(areas.back()));
+  }
+  const LocalConfig config = local_config(scene.acceleration);
+  const std::vector<AreaRayCosts> costs =
+      measure_area_costs(world, global, built, config, scene.film);
+  for (std::size_t i = 0; i < areas.size(); ++i)
+    report.bvhs.push_back(report_local(world, areas[i], config, global, costs[i]));
 }
 
 void write_structures(const fs::path& file, const World& world, const Acceleration& acceleration,
@@ -133,6 +150,7 @@ ExitCode run_inspect(const InspectArguments& arguments) {
                          .surface_cost = cost_within_root(global.built, surface_area),
                          .camera_rays = summarize(costs),
                          .bundle = std::nullopt,
+                         .area_rays = std::nullopt,
                          .seen = std::nullopt,
                          .memory_bytes = global.built.bvh.memory_bytes(),
                          .build_seconds = global.seconds});
@@ -140,10 +158,7 @@ ExitCode run_inspect(const InspectArguments& arguments) {
   // As a render decides.
   const Acceleration acceleration = make_acceleration(world, scene);
   warnings.add(warnings_of(acceleration, world, scene));
-  for (std::size_t i = 0; i < acceleration.areas.size(); ++i)
-    if (acceleration.plans[i].build || arguments.all_areas)
-      report.bvhs.push_back(report_local(world, acceleration.areas[i],
-                                         local_config(scene.acceleration), global.built.bvh));
+  report_areas(report, world, acceleration, scene, arguments.all_areas, global.built.bvh);
   report.accelerator = acceleration.name;
   report.light_grids = report_grids(acceleration, world);
 

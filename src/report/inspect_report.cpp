@@ -63,6 +63,13 @@ std::string bvh_text(const BvhReport& bvh) {
   if (const auto& bundle = bvh.bundle)
     line("bundle's rays",
          fmt::format("expected {:.2f}, in the global BVH {:.2f}", bundle->local, bundle->global));
+  if (const auto& rays = bvh.area_rays) {
+    line("measured rays",
+         fmt::format("{}, of which {} need no other BVH", rays->rays, rays->answered));
+    if (rays->rays > 0)
+      line("  cost",
+           fmt::format("mean {:.2f}, in the global BVH {:.2f}", rays->local, rays->global));
+  }
   if (const auto& rays = bvh.camera_rays) {
     line("camera rays",
          fmt::format("{}, of which {:.1f} % hit", rays->rays, 100 * hit_share(*rays)));
@@ -109,6 +116,11 @@ JsonValue bvh_json(const BvhReport& bvh) {
   if (bvh.seen) json.set("seen_overlap", bvh.seen->all);
   if (const auto& bundle = bvh.bundle)
     json.set("bundle_cost", {{"local", bundle->local}, {"global", bundle->global}});
+  if (const auto& rays = bvh.area_rays)
+    json.set("measured_rays", {{"rays", rays->rays},
+                               {"answered", rays->answered},
+                               {"cost", rays->local},
+                               {"global_cost", rays->global}});
   if (const auto& rays = bvh.camera_rays)
     json.set("camera_rays", {{"rays", rays->rays},
                              {"hits", rays->hits},
@@ -209,6 +221,12 @@ std::string inspect_csv(const InspectReport& report) {
     if (const auto& bundle = bvh.bundle) {
       row("bundle_cost", "local", bundle->local);
       row("bundle_cost", "global", bundle->global);
+    }
+    if (const auto& rays = bvh.area_rays) {
+      row("measured_rays", "", rays->rays);
+      row("measured_rays_answered", "", rays->answered);
+      row("measured_cost", "local", rays->local);
+      row("measured_cost", "global", rays->global);
     }
     if (const auto& rays = bvh.camera_rays) {
       row("camera_rays", "", rays->rays);

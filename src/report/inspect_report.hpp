@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "report/area_ray_costs.hpp"
 #include "report/grid_report.hpp"
 #include "report/ray_costs.hpp"
 
@@ -37,6 +38,7 @@ struct BvhReport {
   double surface_cost = 0;                 // the same, of rays from everywhere (SAH)
   std::optional<CostSummary> camera_rays;  // of the global BVH
   std::optional<BundleCosts> bundle;       // of a local BVH
+  std::optional<AreaRayCosts> area_rays;   // of a local BVH
   std::optional<SeenOverlap> seen;         // of a local BVH
   std::uint64_t memory_bytes = 0;
   double build_seconds = 0;
