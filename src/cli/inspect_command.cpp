@@ -17,6 +17,7 @@
 #include "cli/warnings.hpp"
 #include "io/output_file.hpp"
 #include "report/acceleration_warnings.hpp"
+#include "report/area_gltf.hpp"
 #include "report/box_gltf.hpp"
 #include "report/false_color.hpp"
 #include "report/inspect_report.hpp"
@@ -38,8 +39,9 @@ void check_outputs(const InspectArguments& arguments) {
   check_extension(arguments.heat_map, "--heatmap", ".png");
   check_extension(arguments.structures, "--structures", ".png");
   check_extension(arguments.boxes, "--boxes", ".gltf");
+  check_extension(arguments.areas, "--areas", ".gltf");
   for (const fs::path* file : {&arguments.json, &arguments.csv, &arguments.heat_map,
-                               &arguments.structures, &arguments.boxes})
+                               &arguments.structures, &arguments.boxes, &arguments.areas})
     if (!file->empty()) check_can_create(*file);
 }
 
@@ -100,7 +102,23 @@ void write_structures(const fs::path& file, const World& world, const Accelerati
   const StructureMap map = map_structures(world, acceleration, film);
   write_image(file, {{"", {"R", "G", "B"}, map.image}});
   fmt::print("\nstructures that answer shadow rays, {}: black is where there are none\n{}",
-             file.string(), legend_text(map));
+             file.string(), legend_text(map.legend));
+}
+
+// The octree is over the areas that a render builds or, if asked for, all.
+void write_areas(const InspectArguments& arguments, const World& world,
+                 const Acceleration& acceleration, const TopLevelConfig& top_level) {
+  std::vector<Region> regions;
+  std::vector<std::uint32_t> in_octree;
+  for (std::uint32_t i = 0; i < acceleration.areas.size(); ++i) {
+    regions.push_back(region_of(acceleration.areas[i].area));
+    if (acceleration.plans[i].build || arguments.all_areas) in_octree.push_back(i);
+  }
+  const AreaOctree octree(regions, in_octree, top_level.octree_depth);
+  write_text_file(arguments.areas,
+                  areas_gltf(acceleration.areas, octree, arguments.levels, world.origin));
+  fmt::print("\ninfluence areas, {}: {}, of them {} in the octree\n{}", arguments.areas.string(),
+             regions.size(), in_octree.size(), legend_text(area_legend(acceleration.areas)));
 }
 
 }  // namespace
@@ -152,6 +170,8 @@ ExitCode run_inspect(const InspectArguments& arguments) {
   if (!arguments.csv.empty()) write_text_file(arguments.csv, inspect_csv(report));
   if (!arguments.boxes.empty())
     write_text_file(arguments.boxes, boxes_gltf(global.built.tree, arguments.levels, world.origin));
+  if (!arguments.areas.empty())
+    write_areas(arguments, world, acceleration, scene.acceleration.top_level);
   if (!arguments.heat_map.empty()) {
     const CostSummary most = summarize(costs);
     write_image(arguments.heat_map, {{"", {"R", "G", "B"}, heat_map(costs)}});

@@ -218,7 +218,12 @@ CLI::App* add_inspect(CLI::App& app, InspectArguments& arguments) {
       ->add_option("--boxes", arguments.boxes,
                    "Write the boxes of the topmost levels as lines, a\ncolor for each level")
       ->type_name("FILE.gltf");
-  inspect->add_option("--levels", arguments.levels, "How many levels --boxes writes")
+  inspect
+      ->add_option("--areas", arguments.areas,
+                   "Write the regions of influence areas and the cells of\n"
+                   "an octree over those that are built, as lines")
+      ->type_name("FILE.gltf");
+  inspect->add_option("--levels", arguments.levels, "How many levels of boxes and cells")
       ->capture_default_str()
       ->check(whole_number(1, 80))
       ->type_name("N");
