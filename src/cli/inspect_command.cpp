@@ -21,6 +21,7 @@
 #include "report/box_gltf.hpp"
 #include "report/false_color.hpp"
 #include "report/inspect_report.hpp"
+#include "report/overlay.hpp"
 #include "report/structure_map.hpp"
 
 namespace pah::cli {
@@ -38,10 +39,12 @@ void check_outputs(const InspectArguments& arguments) {
   };
   check_extension(arguments.heat_map, "--heatmap", ".png");
   check_extension(arguments.structures, "--structures", ".png");
+  check_extension(arguments.overlay, "--overlay", ".png");
   check_extension(arguments.boxes, "--boxes", ".gltf");
   check_extension(arguments.areas, "--areas", ".gltf");
-  for (const fs::path* file : {&arguments.json, &arguments.csv, &arguments.heat_map,
-                               &arguments.structures, &arguments.boxes, &arguments.areas})
+  for (const fs::path* file :
+       {&arguments.json, &arguments.csv, &arguments.heat_map, &arguments.structures,
+        &arguments.overlay, &arguments.boxes, &arguments.areas})
     if (!file->empty()) check_can_create(*file);
 }
 
@@ -97,6 +100,14 @@ BvhReport report_local(const World& world, const SceneArea& area, const LocalCon
           .build_seconds = local.seconds};
 }
 
+// Those that a render builds or, if asked for, all.
+std::vector<SceneArea> areas_to_tell_of(const Acceleration& acceleration, bool all) {
+  std::vector<SceneArea> areas;
+  for (std::size_t i = 0; i < acceleration.areas.size(); ++i)
+    if (acceleration.plans[i].build || all) areas.push_back(acceleration.areas[i]);
+  return areas;
+}
+
 void write_structures(const fs::path& file, const World& world, const Acceleration& acceleration,
                       const FilmSettings& film) {
   const StructureMap map = map_structures(world, acceleration, film);
@@ -105,20 +116,23 @@ void write_structures(const fs::path& file, const World& world, const Accelerati
              file.string(), legend_text(map.legend));
 }
 
-// The octree is over the areas that a render builds or, if asked for, all.
+void write_overlay(const InspectArguments& arguments, const World& world, const Scene& scene,
+                   const Accelerator& accelerator, const BinaryTree& global,
+                   const std::vector<SceneArea>& areas) {
+  Image picture = draft_picture(world, accelerator, scene);
+  draw_over(picture, world, accelerator, scene.film, box_lines(global, arguments.levels),
+            area_lines(areas));
+  write_image(arguments.overlay, {{"", {"R", "G", "B"}, std::move(picture)}});
+  fmt::print("\ninfluence areas, {}: thin lines are boxes of the global BVH, faint ones hidden\n{}",
+             arguments.overlay.string(), legend_text(area_legend(areas)));
+}
+
 void write_areas(const InspectArguments& arguments, const World& world,
-                 const Acceleration& acceleration, const TopLevelConfig& top_level) {
-  std::vector<Region> regions;
-  std::vector<std::uint32_t> in_octree;
-  for (std::uint32_t i = 0; i < acceleration.areas.size(); ++i) {
-    regions.push_back(region_of(acceleration.areas[i].area));
-    if (acceleration.plans[i].build || arguments.all_areas) in_octree.push_back(i);
-  }
-  const AreaOctree octree(regions, in_octree, top_level.octree_depth);
-  write_text_file(arguments.areas,
-                  areas_gltf(acceleration.areas, octree, arguments.levels, world.origin));
-  fmt::print("\ninfluence areas, {}: {}, of them {} in the octree\n{}", arguments.areas.string(),
-             regions.size(), in_octree.size(), legend_text(area_legend(acceleration.areas)));
+                 const Acceleration& acceleration, const AreaOctree& octree) {
+  const std::vector<SceneArea>& areas = acceleration.areas;
+  write_text_file(arguments.areas, areas_gltf(areas, octree, arguments.levels, world.origin));
+  fmt::print("\ninfluence areas, {}{}\n{}", arguments.areas.string(),
+             areas.empty() ? ": there are none" : "", legend_text(area_legend(areas)));
 }
 
 }  // namespace
@@ -158,10 +172,10 @@ ExitCode run_inspect(const InspectArguments& arguments) {
   // As a render decides.
   const Acceleration acceleration = make_acceleration(world, scene);
   warnings.add(warnings_of(acceleration, world, scene));
-  for (std::size_t i = 0; i < acceleration.areas.size(); ++i)
-    if (acceleration.plans[i].build || arguments.all_areas)
-      report.bvhs.push_back(report_local(world, acceleration.areas[i],
-                                         local_config(scene.acceleration), global.built.bvh));
+  const std::vector<SceneArea> areas = areas_to_tell_of(acceleration, arguments.all_areas);
+  for (const SceneArea& area : areas)
+    report.bvhs.push_back(
+        report_local(world, area, local_config(scene.acceleration), global.built.bvh));
   report.accelerator = acceleration.name;
   report.light_grids = report_grids(acceleration, world);
 
@@ -171,7 +185,7 @@ ExitCode run_inspect(const InspectArguments& arguments) {
   if (!arguments.boxes.empty())
     write_text_file(arguments.boxes, boxes_gltf(global.built.tree, arguments.levels, world.origin));
   if (!arguments.areas.empty())
-    write_areas(arguments, world, acceleration, scene.acceleration.top_level);
+    write_areas(arguments, world, acceleration, area_octree(areas, scene.acceleration.top_level));
   if (!arguments.heat_map.empty()) {
     const CostSummary most = summarize(costs);
     write_image(arguments.heat_map, {{"", {"R", "G", "B"}, heat_map(costs)}});
@@ -180,6 +194,8 @@ ExitCode run_inspect(const InspectArguments& arguments) {
   }
   if (!arguments.structures.empty())
     write_structures(arguments.structures, world, acceleration, scene.film);
+  if (!arguments.overlay.empty())
+    write_overlay(arguments, world, scene, *acceleration.accelerator, global.built.tree, areas);
   return ExitCode::done;
 }
 

@@ -19,6 +19,7 @@ struct InspectArguments {
   std::filesystem::path json, csv;
   std::filesystem::path heat_map;    // .png
   std::filesystem::path structures;  // .png
+  std::filesystem::path overlay;     // .png
   std::filesystem::path boxes;       // .gltf
   std::filesystem::path areas;       // .gltf
   std::uint32_t levels = 8;          // of boxes and of the octree

@@ -1,5 +1,7 @@
 #include "report/area_gltf.hpp"
 
+#include <numeric>
+
 #include "report/line_gltf.hpp"
 
 namespace pah {
@@ -21,6 +23,14 @@ std::vector<LineSet> area_lines(const std::vector<SceneArea>& areas) {
     add_edges(region_of(areas[i].area), set);
   }
   return sets;
+}
+
+AreaOctree area_octree(const std::vector<SceneArea>& areas, const TopLevelConfig& config) {
+  std::vector<Region> regions;
+  for (const SceneArea& area : areas) regions.push_back(region_of(area.area));
+  std::vector<std::uint32_t> order(regions.size());
+  std::iota(order.begin(), order.end(), 0U);
+  return {regions, order, config.octree_depth};
 }
 
 std::string areas_gltf(const std::vector<SceneArea>& areas, const AreaOctree& octree,

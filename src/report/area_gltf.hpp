@@ -1,6 +1,7 @@
 // Influence areas, and the octree over them, as lines.
 #pragma once
 
+#include <pah/influence/top_level.hpp>
 #include <pah/scene/areas.hpp>
 #include <string>
 #include <vector>
@@ -16,6 +17,10 @@ namespace pah {
 
 // The edges of each area's region, in its color.
 [[nodiscard]] std::vector<LineSet> area_lines(const std::vector<SceneArea>& areas);
+
+// As a render has it whose areas these are, and whose top level is an octree.
+[[nodiscard]] AreaOctree area_octree(const std::vector<SceneArea>& areas,
+                                     const TopLevelConfig& config);
 
 // The areas, and under a node "octree" the cells of its first `levels` levels, as a glTF file.
 // `origin` is added to the coordinates.

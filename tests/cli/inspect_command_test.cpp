@@ -14,18 +14,19 @@ TEST_CASE("inspect reports, and writes what it is asked for") {
   const CurrentTemporaryFolder folder;
   write_file("scene.yaml", small_scene);
   const Outcome outcome =
-      run({"inspect", "scene.yaml", "--width",  "40",    "-D",           "film.width=64",
-           "--json",  "r.json",     "--csv",    "r.csv", "--heatmap",    "heat.png",
-           "--boxes", "boxes.gltf", "--levels", "2",     "--structures", "structures.png",
-           "--areas", "areas.gltf"});
+      run({"inspect", "scene.yaml", "--width",   "40",         "-D",           "film.width=64",
+           "--json",  "r.json",     "--csv",     "r.csv",      "--heatmap",    "heat.png",
+           "--boxes", "boxes.gltf", "--levels",  "2",          "--structures", "structures.png",
+           "--areas", "areas.gltf", "--overlay", "overlay.png"});
   INFO(outcome.err);
   REQUIRE(outcome.exit_code == 0);
   CHECK(outcome.err.empty());
-  for (const char* part : {"14 triangles", "expected cost", "camera rays", "heat.png",
-                           "structures.png", "gray      global BVH", "areas.gltf", "area bulb"})
+  for (const char* part :
+       {"14 triangles", "expected cost", "camera rays", "heat.png", "structures.png",
+        "gray      global BVH", "areas.gltf", "area bulb", "overlay.png"})
     CHECK(outcome.out.find(part) != std::string::npos);
-  CHECK(files() == std::vector<std::string>{"areas.gltf", "boxes.gltf", "heat.png", "r.csv",
-                                            "r.json", "scene.yaml", "structures.png"});
+  CHECK(files() == std::vector<std::string>{"areas.gltf", "boxes.gltf", "heat.png", "overlay.png",
+                                            "r.csv", "r.json", "scene.yaml", "structures.png"});
 
   const auto report = nlohmann::json::parse(read_file("r.json"));
   CHECK(report["scene"] == "scene.yaml");
@@ -67,6 +68,7 @@ TEST_CASE("inspect reports, and writes what it is asked for") {
   CHECK(heat.width == 2 * 40);
   CHECK(heat.height == 15);
   CHECK(pah::read_image("structures.png").width == 40);
+  CHECK(pah::read_image("overlay.png").width == 40);
   CHECK(nlohmann::json::parse(read_file("boxes.gltf"))["meshes"].size() == 2);
   // None is built, so that there is no octree.
   const auto areas = nlohmann::json::parse(read_file("areas.gltf"));
@@ -173,6 +175,7 @@ TEST_CASE("inspect ends as it should where it cannot") {
       {{"inspect", "scene.yaml", "--heatmap", "heat.exr"}, 2},
       {{"inspect", "scene.yaml", "--boxes", "boxes.obj"}, 2},
       {{"inspect", "scene.yaml", "--structures", "structures.exr"}, 2},
+      {{"inspect", "scene.yaml", "--overlay", "overlay.exr"}, 2},
       {{"inspect", "scene.yaml", "--areas", "areas.glb"}, 2},
       {{"--spp", "4", "inspect", "scene.yaml"}, 2},
       {{"inspect", "bad.yaml"}, 3},

@@ -24,13 +24,9 @@ SceneArea plane_area() {
 }
 
 json gltf_of(const std::vector<SceneArea>& areas, std::uint32_t levels = 8) {
-  std::vector<Region> regions;
-  std::vector<std::uint32_t> order;
-  for (const SceneArea& area : areas) {
-    order.push_back(static_cast<std::uint32_t>(order.size()));
-    regions.push_back(region_of(area.area));
-  }
-  return json::parse(areas_gltf(areas, AreaOctree(regions, order, 4), levels, DVec3{1, 2, 3}));
+  TopLevelConfig top_level;
+  top_level.octree_depth = 4;
+  return json::parse(areas_gltf(areas, area_octree(areas, top_level), levels, DVec3{1, 2, 3}));
 }
 
 std::vector<double> edge_lengths(const test::GltfLines& lines) {
