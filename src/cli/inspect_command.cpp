@@ -117,22 +117,24 @@ void write_structures(const fs::path& file, const World& world, const Accelerati
 }
 
 void write_overlay(const InspectArguments& arguments, const World& world, const Scene& scene,
-                   const Accelerator& accelerator, const BinaryTree& global,
+                   const Acceleration& acceleration, const BinaryTree& global,
                    const std::vector<SceneArea>& areas) {
+  const Accelerator& accelerator = *acceleration.accelerator;
   Image picture = draft_picture(world, accelerator, scene);
   draw_over(picture, world, accelerator, scene.film, box_lines(global, arguments.levels),
             area_lines(areas));
   write_image(arguments.overlay, {{"", {"R", "G", "B"}, std::move(picture)}});
-  fmt::print("\ninfluence areas, {}: thin lines are boxes of the global BVH, faint ones hidden\n{}",
-             arguments.overlay.string(), legend_text(area_legend(areas)));
+  fmt::print("\noverlay {}: {} of {} influence areas; thin lines are boxes of the global BVH\n{}",
+             arguments.overlay.string(), areas.size(), acceleration.areas.size(),
+             legend_text(area_legend(areas)));
 }
 
 void write_areas(const InspectArguments& arguments, const World& world,
-                 const Acceleration& acceleration, const AreaOctree& octree) {
-  const std::vector<SceneArea>& areas = acceleration.areas;
+                 const std::vector<SceneArea>& areas, const AreaOctree& octree) {
   write_text_file(arguments.areas, areas_gltf(areas, octree, arguments.levels, world.origin));
-  fmt::print("\ninfluence areas, {}{}\n{}", arguments.areas.string(),
-             areas.empty() ? ": there are none" : "", legend_text(area_legend(areas)));
+  fmt::print("\ninfluence areas {}: {}\n{}", arguments.areas.string(),
+             areas.empty() ? "there are none" : std::to_string(areas.size()),
+             legend_text(area_legend(areas)));
 }
 
 }  // namespace
@@ -185,7 +187,8 @@ ExitCode run_inspect(const InspectArguments& arguments) {
   if (!arguments.boxes.empty())
     write_text_file(arguments.boxes, boxes_gltf(global.built.tree, arguments.levels, world.origin));
   if (!arguments.areas.empty())
-    write_areas(arguments, world, acceleration, area_octree(areas, scene.acceleration.top_level));
+    write_areas(arguments, world, acceleration.areas,
+                area_octree(areas, scene.acceleration.top_level));
   if (!arguments.heat_map.empty()) {
     const CostSummary most = summarize(costs);
     write_image(arguments.heat_map, {{"", {"R", "G", "B"}, heat_map(costs)}});
@@ -195,7 +198,7 @@ ExitCode run_inspect(const InspectArguments& arguments) {
   if (!arguments.structures.empty())
     write_structures(arguments.structures, world, acceleration, scene.film);
   if (!arguments.overlay.empty())
-    write_overlay(arguments, world, scene, *acceleration.accelerator, global.built.tree, areas);
+    write_overlay(arguments, world, scene, acceleration, global.built.tree, areas);
   return ExitCode::done;
 }
 

@@ -67,8 +67,7 @@ class Drawing {
 
   // Goes along the axis that the line is nearer to.
   void add(const Segment& line) {
-    const Vec2 from = Vec2(line[0].place) / line[0].place.w;
-    const Vec2 to = Vec2(line[1].place) / line[1].place.w;
+    const Vec2 from = place_of(line[0]), to = place_of(line[1]);
     const Vec2 way = to - from;
     const int major = std::abs(way.x) >= std::abs(way.y) ? 0 : 1, minor = 1 - major;
     const float slope = way[major] == 0 ? 0 : way[minor] / way[major];
@@ -84,6 +83,12 @@ class Drawing {
   }
 
  private:
+  // Where clipping left it, up to rounding, which near the eye may be anything.
+  [[nodiscard]] Vec2 place_of(const End& end) const {
+    const Vec2 size(static_cast<float>(width_), static_cast<float>(height_));
+    return glm::clamp(Vec2(end.place) / end.place.w, Vec2(-reach_), size + reach_);
+  }
+
   // The picture's first and last along an axis that lie between two coordinates.
   [[nodiscard]] std::pair<int, int> pixels(float from, float to, int axis) const {
     const int last = axis == 0 ? width_ - 1 : height_ - 1;

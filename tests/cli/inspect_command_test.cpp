@@ -23,7 +23,7 @@ TEST_CASE("inspect reports, and writes what it is asked for") {
   CHECK(outcome.err.empty());
   for (const char* part :
        {"14 triangles", "expected cost", "camera rays", "heat.png", "structures.png",
-        "gray      global BVH", "areas.gltf", "area bulb", "overlay.png"})
+        "gray      global BVH", "areas.gltf: ", "area bulb", "overlay.png: 0 of "})
     CHECK(outcome.out.find(part) != std::string::npos);
   CHECK(files() == std::vector<std::string>{"areas.gltf", "boxes.gltf", "heat.png", "overlay.png",
                                             "r.csv", "r.json", "scene.yaml", "structures.png"});
@@ -154,7 +154,7 @@ TEST_CASE("inspect takes scenes of nothing") {
   const CurrentTemporaryFolder folder;
   write_file("scene.yaml", "film: {width: 8, height: 6}\n");
   const Outcome outcome = run({"inspect", "scene.yaml", "--heatmap", "heat.png", "--boxes",
-                               "boxes.gltf", "--areas", "areas.gltf"});
+                               "boxes.gltf", "--areas", "areas.gltf", "--overlay", "overlay.png"});
   INFO(outcome.err);
   CHECK(outcome.exit_code == 0);
   CHECK(outcome.out.find("0 triangles") != std::string::npos);

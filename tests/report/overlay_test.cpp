@@ -157,6 +157,28 @@ TEST_CASE("A line on the wall is not hidden, one behind it is faint") {
   CHECK(share_at(-1) == Approx(0.25));
 }
 
+TEST_CASE("Boxes are thin, and under the areas") {
+  const Scene scene = wall(true);
+  const World world = make_world(scene);
+  const Acceleration acceleration = make_acceleration(world, scene, "bvh");
+  const auto line = [&](const Vec3& color) {  // through the middle of the pixels of row 15
+    const DVec3 middle = DVec3(0, 1.0 / height, 3) - world.origin;
+    return LineSet{
+        "line", color, {Vec3(middle - DVec3(1, 0, 0)), Vec3(middle + DVec3(1, 0, 0))}, {{0, 1}}};
+  };
+  const LineSet red = line(Vec3(1, 0, 0)), green = line(Vec3(0, 1, 0)), blue = line(Vec3(0, 0, 1));
+  const auto drawn = [&](const std::vector<LineSet>& boxes, const std::vector<LineSet>& areas) {
+    Image picture{width, height, std::vector<Vec3>(width * height, Vec3(0))};
+    draw_over(picture, world, *acceleration.accelerator, scene.film, boxes, areas);
+    CHECK(picture.at(width / 2, 14) == picture.at(width / 2, 16));
+    return picture.at(width / 2, 15);
+  };
+  CHECK(glm::distance(drawn({red}, {}), Vec3(0.6, 0, 0)) < 1e-3F);
+  // The first level is over the second.
+  CHECK(glm::distance(drawn({red, green}, {}), Vec3(0.6, 0.24, 0)) < 1e-3F);
+  CHECK(glm::distance(drawn({red, green}, {blue}), Vec3(0, 0, 1)) < 1e-3F);
+}
+
 TEST_CASE("Lines before nothing are not hidden") {
   Scene scene = wall(true);
   scene.instances.clear();
