@@ -8,6 +8,7 @@ namespace pah {
 
 std::vector<LegendColor> area_legend(const std::vector<SceneArea>& areas) {
   std::vector<LegendColor> legend;
+  legend.reserve(areas.size());
   for (const SceneArea& area : areas)
     legend.push_back(legend_color("area " + area.name, legend.size() + 1));
   return legend;
@@ -27,6 +28,7 @@ std::vector<LineSet> area_lines(const std::vector<SceneArea>& areas) {
 
 AreaOctree area_octree(const std::vector<SceneArea>& areas, const TopLevelConfig& config) {
   std::vector<Region> regions;
+  regions.reserve(areas.size());
   for (const SceneArea& area : areas) regions.push_back(region_of(area.area));
   std::vector<std::uint32_t> order(regions.size());
   std::iota(order.begin(), order.end(), 0U);
