@@ -58,6 +58,9 @@ class AreaOctree {
   }
   [[nodiscard]] std::span<const AreaCandidate> leaf_of(const Vec3& point) const;
 
+  // The boxes of the first `levels` levels' cells, halved ones too; none if there are no areas.
+  [[nodiscard]] std::vector<std::vector<Aabb>> cells(std::size_t levels) const;
+
   [[nodiscard]] std::size_t nodes() const { return nodes_.size(); }
   [[nodiscard]] int depth() const { return depth_; }
   [[nodiscard]] std::size_t memory_bytes() const {

@@ -17,9 +17,11 @@
 #include "cli/warnings.hpp"
 #include "io/output_file.hpp"
 #include "report/acceleration_warnings.hpp"
+#include "report/area_gltf.hpp"
 #include "report/box_gltf.hpp"
 #include "report/false_color.hpp"
 #include "report/inspect_report.hpp"
+#include "report/overlay.hpp"
 #include "report/structure_map.hpp"
 
 namespace pah::cli {
@@ -37,9 +39,12 @@ void check_outputs(const InspectArguments& arguments) {
   };
   check_extension(arguments.heat_map, "--heatmap", ".png");
   check_extension(arguments.structures, "--structures", ".png");
+  check_extension(arguments.overlay, "--overlay", ".png");
   check_extension(arguments.boxes, "--boxes", ".gltf");
-  for (const fs::path* file : {&arguments.json, &arguments.csv, &arguments.heat_map,
-                               &arguments.structures, &arguments.boxes})
+  check_extension(arguments.areas, "--areas", ".gltf");
+  for (const fs::path* file :
+       {&arguments.json, &arguments.csv, &arguments.heat_map, &arguments.structures,
+        &arguments.overlay, &arguments.boxes, &arguments.areas})
     if (!file->empty()) check_can_create(*file);
 }
 
@@ -96,20 +101,27 @@ BvhReport report_local(const World& world, const SceneArea& area, const LocalCon
           .build_seconds = local.seconds};
 }
 
-void report_areas(InspectReport& report, const World& world, const Acceleration& acceleration,
-                  const Scene& scene, bool all, const Bvh& global) {
+// Those that a render builds or, if asked for, all.
+std::vector<SceneArea> areas_to_tell_of(const Acceleration& acceleration, bool all) {
   std::vector<SceneArea> areas;
+  for (std::size_t i = 0; i < acceleration.areas.size(); ++i)
+    if (acceleration.plans[i].build || all) areas.push_back(acceleration.areas[i]);
+  return areas;
+}
+
+std::vector<BvhReport> report_areas(const World& world, const std::vector<SceneArea>& areas,
+                                    const Scene& scene, const Bvh& global) {
   std::vector<LocalArea> built;
-  for (std::size_t i = 0; i < acceleration.areas.size(); ++i) {
-    if (!acceleration.plans[i].build && !all) continue;
-    areas.push_back(acceleration.areas[i]);
-    built.push_back(local_area(areas.back()));
-  }
+  built.reserve(areas.size());
+  for (const SceneArea& area : areas) built.push_back(local_area(area));
   const LocalConfig config = local_config(scene.acceleration);
   const std::vector<AreaRayCosts> costs =
       measure_area_costs(world, global, built, config, scene.film);
+  std::vector<BvhReport> reports;
+  reports.reserve(areas.size());
   for (std::size_t i = 0; i < areas.size(); ++i)
-    report.bvhs.push_back(report_local(world, areas[i], config, global, costs[i]));
+    reports.push_back(report_local(world, areas[i], config, global, costs[i]));
+  return reports;
 }
 
 void write_structures(const fs::path& file, const World& world, const Acceleration& acceleration,
@@ -117,7 +129,28 @@ void write_structures(const fs::path& file, const World& world, const Accelerati
   const StructureMap map = map_structures(world, acceleration, film);
   write_image(file, {{"", {"R", "G", "B"}, map.image}});
   fmt::print("\nstructures that answer shadow rays, {}: black is where there are none\n{}",
-             file.string(), legend_text(map));
+             file.string(), legend_text(map.legend));
+}
+
+void write_overlay(const InspectArguments& arguments, const World& world, const Scene& scene,
+                   const Acceleration& acceleration, const BinaryTree& global,
+                   const std::vector<SceneArea>& areas) {
+  const Accelerator& accelerator = *acceleration.accelerator;
+  Image picture = draft_picture(world, accelerator, scene);
+  draw_over(picture, world, accelerator, scene.film, box_lines(global, arguments.levels),
+            area_lines(areas));
+  write_image(arguments.overlay, {{"", {"R", "G", "B"}, std::move(picture)}});
+  fmt::print("\noverlay {}: {} of {} influence areas; thin lines are boxes of the global BVH\n{}",
+             arguments.overlay.string(), areas.size(), acceleration.areas.size(),
+             legend_text(area_legend(areas)));
+}
+
+void write_areas(const InspectArguments& arguments, const World& world,
+                 const std::vector<SceneArea>& areas, const AreaOctree& octree) {
+  write_text_file(arguments.areas, areas_gltf(areas, octree, arguments.levels, world.origin));
+  fmt::print("\ninfluence areas {}: {}\n{}", arguments.areas.string(),
+             areas.empty() ? "there are none" : std::to_string(areas.size()),
+             legend_text(area_legend(areas)));
 }
 
 }  // namespace
@@ -158,7 +191,9 @@ ExitCode run_inspect(const InspectArguments& arguments) {
   // As a render decides.
   const Acceleration acceleration = make_acceleration(world, scene);
   warnings.add(warnings_of(acceleration, world, scene));
-  report_areas(report, world, acceleration, scene, arguments.all_areas, global.built.bvh);
+  const std::vector<SceneArea> areas = areas_to_tell_of(acceleration, arguments.all_areas);
+  for (BvhReport& area : report_areas(world, areas, scene, global.built.bvh))
+    report.bvhs.push_back(std::move(area));
   report.accelerator = acceleration.name;
   report.light_grids = report_grids(acceleration, world);
 
@@ -167,6 +202,9 @@ ExitCode run_inspect(const InspectArguments& arguments) {
   if (!arguments.csv.empty()) write_text_file(arguments.csv, inspect_csv(report));
   if (!arguments.boxes.empty())
     write_text_file(arguments.boxes, boxes_gltf(global.built.tree, arguments.levels, world.origin));
+  if (!arguments.areas.empty())
+    write_areas(arguments, world, acceleration.areas,
+                area_octree(areas, scene.acceleration.top_level));
   if (!arguments.heat_map.empty()) {
     const CostSummary most = summarize(costs);
     write_image(arguments.heat_map, {{"", {"R", "G", "B"}, heat_map(costs)}});
@@ -175,6 +213,8 @@ ExitCode run_inspect(const InspectArguments& arguments) {
   }
   if (!arguments.structures.empty())
     write_structures(arguments.structures, world, acceleration, scene.film);
+  if (!arguments.overlay.empty())
+    write_overlay(arguments, world, scene, acceleration, global.built.tree, areas);
   return ExitCode::done;
 }
 

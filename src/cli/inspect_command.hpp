@@ -19,8 +19,10 @@ struct InspectArguments {
   std::filesystem::path json, csv;
   std::filesystem::path heat_map;    // .png
   std::filesystem::path structures;  // .png
+  std::filesystem::path overlay;     // .png
   std::filesystem::path boxes;       // .gltf
-  std::uint32_t levels = 8;          // of boxes
+  std::filesystem::path areas;       // .gltf
+  std::uint32_t levels = 8;          // of boxes and of the octree
   bool all_areas = false;            // also those that a render does not build
 };
 

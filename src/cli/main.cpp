@@ -215,10 +215,20 @@ CLI::App* add_inspect(CLI::App& app, InspectArguments& arguments) {
                    "Write a picture of which structure answers each\npixel's shadow rays")
       ->type_name("FILE.png");
   inspect
+      ->add_option("--overlay", arguments.overlay,
+                   "Write a picture of the scene with the influence areas\n"
+                   "that are built and boxes drawn over it")
+      ->type_name("FILE.png");
+  inspect
       ->add_option("--boxes", arguments.boxes,
                    "Write the boxes of the topmost levels as lines, a\ncolor for each level")
       ->type_name("FILE.gltf");
-  inspect->add_option("--levels", arguments.levels, "How many levels --boxes writes")
+  inspect
+      ->add_option("--areas", arguments.areas,
+                   "Write the influence areas and an octree over those\n"
+                   "that are built, as lines")
+      ->type_name("FILE.gltf");
+  inspect->add_option("--levels", arguments.levels, "How many levels of boxes and cells")
       ->capture_default_str()
       ->check(whole_number(1, 80))
       ->type_name("N");

@@ -49,13 +49,21 @@ Ray CameraRays::central(int x, int y) const {
   return ray;
 }
 
+Vec4 CameraRays::project(const Vec3& point) const {
+  const Vec3 away = point - position_;
+  const float z = glm::dot(forward_, away);
+  const float w = perspective_ ? z : 1;
+  return {(w + glm::dot(right_, away) / half_width_) * width_ / 2.0F,
+          (w - glm::dot(up_, away) / half_height_) * height_ / 2.0F, z, w};
+}
+
 CameraRay CameraRays::generate(int x, int y, NumberReader& numbers) const {
   const Vec2 u = numbers.next_2d();
   const Vec2 offset = filter_ == PixelFilter::box ? sample_box(u, filter_radius_)
                                                   : sample_blackman_harris(u, filter_radius_);
   const Vec3 across =
       from_axis(static_cast<float>(x) + 0.5F + offset.x, static_cast<float>(y) + 0.5F + offset.y);
-  const float pixel = 2 * half_height_ / height_;
+  const float pixel = pixel_width();
 
   CameraRay out;
   if (!perspective_) {

@@ -30,6 +30,13 @@ class CameraRays {
   // Through the centers of the pixel and of the lens.
   [[nodiscard]] Ray central(int x, int y) const;
 
+  // The way back, in homogeneous coordinates: (x, y) / w is where a point is in the picture, in
+  // pixels, and z how far along the axis. w is z if perspective, else 1; such rays meet z > 0 only.
+  [[nodiscard]] Vec4 project(const Vec3& point) const;
+
+  // A length, at w = 1.
+  [[nodiscard]] float pixel_width() const { return 2 * half_height_ / height_; }
+
  private:
   // From the axis to the point (x, y), in pixels, of the picture.
   [[nodiscard]] Vec3 from_axis(float x, float y) const;

@@ -1,13 +1,18 @@
-// A tree's boxes as a glTF 2.0 file for any viewer.
+// A tree's boxes as lines.
 #pragma once
 
 #include <pah/bvh/binary_tree.hpp>
 #include <string>
+#include <vector>
+
+#include "report/line_set.hpp"
 
 namespace pah {
 
-// The boxes of the first `count` levels as lines: a node, a mesh and a color for each level, so
-// that viewers can switch them off. `origin` is added to the boxes' coordinates.
+// The boxes of the first `count` levels.
+[[nodiscard]] std::vector<LineSet> box_lines(const BinaryTree& tree, std::uint32_t count);
+
+// They as a glTF file. `origin` is added to the boxes' coordinates.
 [[nodiscard]] std::string boxes_gltf(const BinaryTree& tree, std::uint32_t count,
                                      const DVec3& origin);
 

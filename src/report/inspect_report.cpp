@@ -52,10 +52,11 @@ std::string bvh_text(const BvhReport& bvh) {
   line("nodes", fmt::format("{}, of which {} leaves; {} eight-wide", tree.nodes, tree.leaves,
                             bvh.wide_nodes));
   line("depth of leaves", fmt::format("at most {}, mean {:.1f}", tree.max_depth, tree.mean_depth));
-  line("balance",
-       fmt::format("smaller children have {:.0f} %, mean; {:.1f} % of nodes below {:.0f} %",
-                   100 * tree.balance.smaller_share, 100 * tree.balance.lopsided,
-                   100 * TreeBalance::lopsided_below));
+  if (tree.balance.nodes > 0)
+    line("balance",
+         fmt::format("smaller children have {:.0f} %, mean; {:.1f} % of nodes below {:.0f} %",
+                     100 * tree.balance.smaller_share, 100 * tree.balance.lopsided,
+                     100 * TreeBalance::lopsided_below));
   line("expected cost", fmt::format("{:.2f}, by SAH {:.2f}", bvh.expected_cost, bvh.surface_cost));
   line("overlap", fmt::format("{:.1f} % of the parent, mean", 100 * tree.overlap));
   if (bvh.seen)

@@ -1,12 +1,8 @@
 #include "report/structure_map.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <array>
 #include <optional>
 
-#include "image/srgb.hpp"
 #include "parallel/parallel_for.hpp"
 #include "render/camera_rays.hpp"
 #include "render/seen_point.hpp"
@@ -14,40 +10,15 @@
 namespace pah {
 namespace {
 
-struct NamedColor {
-  std::string_view name;
-  std::array<int, 3> encoded;  // sRGB
-};
-
-// Okabe & Ito, "Color Universal Design" (2008): told apart by color-blind people, too. The first is
-// the global BVH's; of many structures some share one.
-constexpr std::array<NamedColor, 8> colors{{{"gray", {128, 128, 128}},
-                                            {"orange", {230, 159, 0}},
-                                            {"sky blue", {86, 180, 233}},
-                                            {"green", {0, 158, 115}},
-                                            {"yellow", {240, 228, 66}},
-                                            {"blue", {0, 114, 178}},
-                                            {"vermilion", {213, 94, 0}},
-                                            {"purple", {204, 121, 167}}}};
-
-StructureColor color_of(std::string structure, std::size_t index) {
-  const NamedColor& named = colors[index == 0 ? 0 : 1 + (index - 1) % (colors.size() - 1)];
-  StructureColor color{std::move(structure), named.name};
-  for (int i = 0; i < 3; ++i)
-    color.color[i] =
-        linear_from_srgb(static_cast<float>(named.encoded[static_cast<std::size_t>(i)]) / 255);
-  return color;
-}
-
-// The global BVH, then areas and grids that were built, in their order.
-std::vector<StructureColor> legend_of(const World& world, const Acceleration& acceleration) {
-  std::vector<StructureColor> legend{color_of("global BVH", 0)};
+// The global BVH in gray, then areas and grids that were built, in their order.
+std::vector<LegendColor> legend_of(const World& world, const Acceleration& acceleration) {
+  std::vector<LegendColor> legend{legend_color("global BVH", 0)};
   for (std::size_t i = 0; i < acceleration.areas.size(); ++i)
     if (acceleration.plans[i].build)
-      legend.push_back(color_of("area " + acceleration.areas[i].name, legend.size()));
+      legend.push_back(legend_color("area " + acceleration.areas[i].name, legend.size()));
   if (acceleration.grids != nullptr)
     for (const LightGridReport& grid : acceleration.grids->reports())
-      legend.push_back(color_of("grid of " + world.lights[grid.bundle].name, legend.size()));
+      legend.push_back(legend_color("grid of " + world.lights[grid.bundle].name, legend.size()));
   return legend;
 }
 
@@ -83,7 +54,7 @@ class Structures {
 
 // Those without a bundle are the global BVH's.
 Vec3 color_at(const SeenPoint& at, const World& world, const Structures& structures,
-              const std::vector<StructureColor>& legend) {
+              const std::vector<LegendColor>& legend) {
   Vec3 sum(0);
   int rays = 0;
   for (std::size_t i = 0; i < world.lights.size(); ++i) {
@@ -118,13 +89,6 @@ StructureMap map_structures(const World& world, const Acceleration& acceleration
     }
   });
   return map;
-}
-
-std::string legend_text(const StructureMap& map) {
-  std::string text;
-  for (const StructureColor& color : map.legend)
-    text += fmt::format("  {:10}{}\n", color.name, color.structure);
-  return text;
 }
 
 }  // namespace pah

@@ -3,21 +3,15 @@
 
 #include <pah/image/image.hpp>
 #include <pah/render/acceleration.hpp>
-#include <string>
-#include <string_view>
 #include <vector>
+
+#include "report/legend.hpp"
 
 namespace pah {
 
-struct StructureColor {
-  std::string structure;
-  std::string_view name;  // of the color
-  Vec3 color{0};          // linear
-};
-
 struct StructureMap {
   Image image;
-  std::vector<StructureColor> legend;
+  std::vector<LegendColor> legend;
 };
 
 // Of the shadow rays from the point that a pixel's central ray meets, one to the center of each
@@ -25,8 +19,5 @@ struct StructureMap {
 // where there are none. The whole picture, whatever its crop.
 [[nodiscard]] StructureMap map_structures(const World& world, const Acceleration& acceleration,
                                           const FilmSettings& film);
-
-// A line for each color.
-[[nodiscard]] std::string legend_text(const StructureMap& map);
 
 }  // namespace pah

@@ -14,17 +14,19 @@ TEST_CASE("inspect reports, and writes what it is asked for") {
   const CurrentTemporaryFolder folder;
   write_file("scene.yaml", small_scene);
   const Outcome outcome =
-      run({"inspect", "scene.yaml", "--width", "40", "-D", "film.width=64", "--json", "r.json",
-           "--csv", "r.csv", "--heatmap", "heat.png", "--boxes", "boxes.gltf", "--levels", "2",
-           "--structures", "structures.png"});
+      run({"inspect", "scene.yaml", "--width",   "40",         "-D",           "film.width=64",
+           "--json",  "r.json",     "--csv",     "r.csv",      "--heatmap",    "heat.png",
+           "--boxes", "boxes.gltf", "--levels",  "2",          "--structures", "structures.png",
+           "--areas", "areas.gltf", "--overlay", "overlay.png"});
   INFO(outcome.err);
   REQUIRE(outcome.exit_code == 0);
   CHECK(outcome.err.empty());
-  for (const char* part : {"14 triangles", "expected cost", "camera rays", "heat.png",
-                           "structures.png", "gray      global BVH"})
+  for (const char* part :
+       {"14 triangles", "expected cost", "camera rays", "heat.png", "structures.png",
+        "gray      global BVH", "areas.gltf: ", "area bulb", "overlay.png: 0 of "})
     CHECK(outcome.out.find(part) != std::string::npos);
-  CHECK(files() == std::vector<std::string>{"boxes.gltf", "heat.png", "r.csv", "r.json",
-                                            "scene.yaml", "structures.png"});
+  CHECK(files() == std::vector<std::string>{"areas.gltf", "boxes.gltf", "heat.png", "overlay.png",
+                                            "r.csv", "r.json", "scene.yaml", "structures.png"});
 
   const auto report = nlohmann::json::parse(read_file("r.json"));
   CHECK(report["scene"] == "scene.yaml");
@@ -66,7 +68,12 @@ TEST_CASE("inspect reports, and writes what it is asked for") {
   CHECK(heat.width == 2 * 40);
   CHECK(heat.height == 15);
   CHECK(pah::read_image("structures.png").width == 40);
+  CHECK(pah::read_image("overlay.png").width == 40);
   CHECK(nlohmann::json::parse(read_file("boxes.gltf"))["meshes"].size() == 2);
+  // None is built, so that there is no octree.
+  const auto areas = nlohmann::json::parse(read_file("areas.gltf"));
+  CHECK(areas["meshes"].size() > 1);
+  CHECK(areas["nodes"].size() == 1 + areas["meshes"].size());
 }
 
 TEST_CASE("inspect tells of the local BVHs that a render has") {
@@ -146,11 +153,12 @@ TEST_CASE("inspect tells which lights have grids, and why") {
 TEST_CASE("inspect takes scenes of nothing") {
   const CurrentTemporaryFolder folder;
   write_file("scene.yaml", "film: {width: 8, height: 6}\n");
-  const Outcome outcome =
-      run({"inspect", "scene.yaml", "--heatmap", "heat.png", "--boxes", "boxes.gltf"});
+  const Outcome outcome = run({"inspect", "scene.yaml", "--heatmap", "heat.png", "--boxes",
+                               "boxes.gltf", "--areas", "areas.gltf", "--overlay", "overlay.png"});
   INFO(outcome.err);
   CHECK(outcome.exit_code == 0);
   CHECK(outcome.out.find("0 triangles") != std::string::npos);
+  CHECK(nlohmann::json::parse(read_file("areas.gltf"))["nodes"].size() == 1);
 }
 
 TEST_CASE("inspect ends as it should where it cannot") {
@@ -167,6 +175,8 @@ TEST_CASE("inspect ends as it should where it cannot") {
       {{"inspect", "scene.yaml", "--heatmap", "heat.exr"}, 2},
       {{"inspect", "scene.yaml", "--boxes", "boxes.obj"}, 2},
       {{"inspect", "scene.yaml", "--structures", "structures.exr"}, 2},
+      {{"inspect", "scene.yaml", "--overlay", "overlay.exr"}, 2},
+      {{"inspect", "scene.yaml", "--areas", "areas.glb"}, 2},
       {{"--spp", "4", "inspect", "scene.yaml"}, 2},
       {{"inspect", "bad.yaml"}, 3},
       {{"inspect", "scene.yaml", "-D", "film.widht=3"}, 3},

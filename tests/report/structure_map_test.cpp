@@ -44,7 +44,7 @@ TEST_CASE("without areas and grids the global BVH answers all shadow rays") {
   CHECK(map.image.width == 16);
   CHECK(map.image.height == 16);
   REQUIRE(map.legend.size() == 1);
-  CHECK(legend_text(map) == "  gray      global BVH\n");
+  CHECK(legend_text(map.legend) == "  gray      global BVH\n");
   CHECK(is_all(map, map.legend[0].color));
 }
 
@@ -57,7 +57,7 @@ TEST_CASE("a declared area answers the shadow rays that start in it") {
   scene.influence_areas.declared = {area};
   const StructureMap map = map_of(scene);
   REQUIRE(map.legend.size() == 2);
-  CHECK(map.legend[1].structure == "area bulb");
+  CHECK(map.legend[1].what == "area bulb");
   CHECK(map.image.at(8, 8) == map.legend[1].color);
   CHECK(map.image.at(0, 0) == map.legend[0].color);
   CHECK(std::ranges::count(map.image.pixels, map.legend[1].color) > 4);
@@ -67,7 +67,7 @@ TEST_CASE("a grid answers the shadow rays of its light, others share the pixel")
   Scene scene = floor_under_bulb();
   const StructureMap alone = map_of(scene, "light");
   REQUIRE(alone.legend.size() == 2);
-  CHECK(alone.legend[1].structure == "grid of bulb");
+  CHECK(alone.legend[1].what == "grid of bulb");
   CHECK(is_all(alone, alone.legend[1].color));
 
   scene.lights.push_back({"sky", EnvironmentLight{}});
