@@ -19,7 +19,7 @@
 namespace pah::cli {
 namespace {
 
-constexpr std::chrono::milliseconds between_looks(20);
+constexpr std::chrono::milliseconds between_tries(20);
 
 struct FreeAddresses {
   void operator()(addrinfo* addresses) const { ::freeaddrinfo(addresses); }
@@ -55,7 +55,7 @@ Addresses resolve(const TevAddress& address, const TevConnection::OutOfTime& out
   });
   std::future<Addresses> found = task.get_future();
   std::thread(std::move(task)).detach();
-  while (found.wait_for(between_looks) != std::future_status::ready)
+  while (found.wait_for(between_tries) != std::future_status::ready)
     if (out_of_time()) throw std::runtime_error("its name could not be looked up in time");
   return found.get();
 }
@@ -63,7 +63,7 @@ Addresses resolve(const TevAddress& address, const TevConnection::OutOfTime& out
 // False if out of time before.
 bool wait_for(int socket, short events, const TevConnection::OutOfTime& out_of_time) {
   pollfd waiting{socket, events, 0};
-  while (::poll(&waiting, 1, static_cast<int>(between_looks.count())) <= 0)
+  while (::poll(&waiting, 1, static_cast<int>(between_tries.count())) <= 0)
     if (out_of_time()) return false;
   return true;
 }

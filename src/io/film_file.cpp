@@ -15,7 +15,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::uint64_t magic = 0x0A4D4C4946484150ULL;  // "PAHFILM\n"
-constexpr int format = 1;
+constexpr int format_version = 1;
 constexpr int max_int = std::numeric_limits<int>::max();
 constexpr int max_side = 65536;  // as a scene may ask for
 constexpr std::uint64_t max_text = 256;
@@ -211,7 +211,7 @@ void write_film(const fs::path& file, const FilmOrigin& origin, const FilmSample
   try {
     WordWriter writer(temporary, file);
     writer.put(magic);
-    writer.put_int(format);
+    writer.put_int(format_version);
     put_origin(writer, origin);
     put_samples(writer, samples);
     put_film(writer, film);
@@ -227,8 +227,9 @@ void write_film(const fs::path& file, const FilmOrigin& origin, const FilmSample
 FilmFile read_film(const fs::path& file) {
   WordReader reader(file);
   if (reader.word() != magic) reader.fail("is not a film of pahrender's");
-  if (const std::uint64_t found = reader.word(); found != format)
-    reader.fail(fmt::format("is of format {}; this pahrender reads format {}", found, format));
+  if (const std::uint64_t found = reader.word(); found != format_version)
+    reader.fail(
+        fmt::format("is of format {}; this pahrender reads format {}", found, format_version));
   FilmFile result;
   result.origin = read_origin(reader);
   const std::uint64_t behind = read_samples(reader, result.samples);

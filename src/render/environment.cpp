@@ -7,7 +7,7 @@
 namespace pah {
 namespace {
 
-constexpr float pi = std::numbers::pi_v<float>;
+using std::numbers::pi_v;
 
 // Fills cdf[0..n] from n weights and returns their sum; uniform if they are all zero.
 double fill_cdf(std::span<const double> weights, std::span<float> cdf) {
@@ -35,12 +35,13 @@ int find_cell(std::span<const float> cdf, float& u) {
 
 Vec2 lat_long_from_direction(const Vec3& d) {
   const float horizontal = std::sqrt(d.x * d.x + d.z * d.z);
-  return {0.5F + std::atan2(d.x, -d.z) / (2 * pi), std::atan2(horizontal, d.y) / pi};
+  return {0.5F + std::atan2(d.x, -d.z) / (2 * pi_v<float>),
+          std::atan2(horizontal, d.y) / pi_v<float>};
 }
 
 Vec3 direction_from_lat_long(const Vec2& uv) {
-  const float phi = (uv.x - 0.5F) * 2 * pi;
-  const float theta = uv.y * pi;
+  const float phi = (uv.x - 0.5F) * 2 * pi_v<float>;
+  const float theta = uv.y * pi_v<float>;
   const float sin_theta = std::sin(theta);
   return {sin_theta * std::sin(phi), std::cos(theta), -sin_theta * std::cos(phi)};
 }
@@ -77,7 +78,7 @@ float LatLongDistribution::density(int x, int y, float sin_theta) const {
   const float* texels = texel_cdf_.data() + row * (static_cast<std::size_t>(width_) + 1);
   const float in_row = (row_cdf_[row + 1] - row_cdf_[row]) * static_cast<float>(height_);
   const float in_texel = (texels[column + 1] - texels[column]) * static_cast<float>(width_);
-  return sin_theta > 0 ? in_row * in_texel / (2 * pi * pi * sin_theta) : 0;
+  return sin_theta > 0 ? in_row * in_texel / (2 * pi_v<float> * pi_v<float> * sin_theta) : 0;
 }
 
 LatLongDistribution::Sample LatLongDistribution::sample(const Vec2& u) const {

@@ -9,7 +9,7 @@
 namespace pah {
 namespace {
 
-constexpr float pi = std::numbers::pi_v<float>;
+using std::numbers::pi_v;
 
 // So few lights are weighed one by one. More are divided into groups, and those again until they
 // are small, so that some are ruled out as a whole.
@@ -31,12 +31,12 @@ struct Cone {
 Cone unite(const Cone& a, const Cone& b) {
   const float theta_a = safe_acos(a.cosine), theta_b = safe_acos(b.cosine);
   const float between = safe_acos(glm::dot(a.axis, b.axis));
-  if (std::min(between + theta_b, pi) <= theta_a) return a;
-  if (std::min(between + theta_a, pi) <= theta_b) return b;
+  if (std::min(between + theta_b, pi_v<float>) <= theta_a) return a;
+  if (std::min(between + theta_a, pi_v<float>) <= theta_b) return b;
   const float theta = (theta_a + between + theta_b) / 2;
   const Vec3 turn_axis = glm::cross(a.axis, b.axis);
   const float length = glm::length(turn_axis);
-  if (theta >= pi || length == 0) return {a.axis, -1};
+  if (theta >= pi_v<float> || length == 0) return {a.axis, -1};
   const float turn = theta - theta_a;
   const Vec3 across = glm::cross(turn_axis / length, a.axis);
   return {glm::normalize(std::cos(turn) * a.axis + std::sin(turn) * across), std::cos(theta)};

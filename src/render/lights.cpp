@@ -14,7 +14,7 @@
 namespace pah {
 namespace {
 
-constexpr float pi = std::numbers::pi_v<float>;
+using std::numbers::pi_v;
 
 // Below this half-angle (radians) a cone of directions is no wider than some thousand floats.
 constexpr double narrowest_sun = 1000 * 0x1p-24;
@@ -54,7 +54,7 @@ float pdf_environment(const EnvironmentEmitter& emitter, const LitPoint& at,
     return emitter.distribution->pdf(glm::transpose(emitter.world_from_light) * direction);
   }
   if (at.transmits) return pdf_uniform_sphere();
-  return std::max(0.0F, glm::dot(direction, at.normal)) / pi;
+  return std::max(0.0F, glm::dot(direction, at.normal)) / pi_v<float>;
 }
 
 // How far off a triangle's plane a segment may meet it that ends on it, seen from a point at a
@@ -280,7 +280,8 @@ LightSampler make_sampler(const std::vector<Emitter>& emitters) {
     } else if (const auto* sky = std::get_if<EnvironmentEmitter>(&emitters[i])) {
       const float mean = sky->distribution ? static_cast<float>(sky->distribution->mean())
                                            : mean_of(sky->radiance);
-      if (mean > 0) distant.push_back({id, distant_bounds(Vec3(0, 1, 0), pi, pi * mean)});
+      if (mean > 0)
+        distant.push_back({id, distant_bounds(Vec3(0, 1, 0), pi_v<float>, pi_v<float> * mean)});
     }
   }
   return {std::move(placed), std::move(distant), emitters.size()};

@@ -4,15 +4,14 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <glm/gtc/constants.hpp>
 
 namespace pah {
 namespace {
 
-constexpr float pi = glm::pi<float>();
+using std::numbers::pi_v;
 
 Vec3 from_height(float z, float sin_theta, float u) {
-  const float phi = 2 * pi * u;
+  const float phi = 2 * pi_v<float> * u;
   return {sin_theta * std::cos(phi), sin_theta * std::sin(phi), z};
 }
 
@@ -34,7 +33,7 @@ Window make_window() {
   Window window{};
   double sum = 0, previous = 0;
   for (int i = 0; i <= intervals; ++i) {
-    const double x = glm::pi<double>() * (2.0 * i / intervals - 1);
+    const double x = std::numbers::pi * (2.0 * i / intervals - 1);
     const double value = a0 + a1 * std::cos(x) + a2 * std::cos(2 * x) + a3 * std::cos(3 * x);
     const double density = value / (2 * a0);
     if (i > 0) sum += (previous + density) / intervals;
@@ -69,14 +68,14 @@ float sample_window(float u) {
 
 Vec3 sample_uniform_sphere(Vec2 u) { return sample_uniform_cone(u, 2); }
 
-float pdf_uniform_sphere() { return 1 / (4 * pi); }
+float pdf_uniform_sphere() { return 1 / (4 * pi_v<float>); }
 
 Vec3 sample_uniform_cone(Vec2 u, float one_minus_cos) {
   const float h = u.x * one_minus_cos;
   return from_height(1 - h, std::sqrt(h * (2 - h)), u.y);
 }
 
-float pdf_uniform_cone(float one_minus_cos) { return 1 / (2 * pi * one_minus_cos); }
+float pdf_uniform_cone(float one_minus_cos) { return 1 / (2 * pi_v<float> * one_minus_cos); }
 
 Vec2 sample_uniform_triangle(Vec2 u) {
   const float root = std::sqrt(u.x);
