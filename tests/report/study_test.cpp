@@ -70,7 +70,7 @@ TEST_CASE("The study's tables have their columns, a row for each tree") {
       9 * areas);
   check_table(build_csv(results), tree + "build_cpu_seconds", 9 * areas);
   check_table(sweep_csv(results), tree + "parameter,value,cost,over_default,lopsided",
-              2 * (2 * 44));
+              2 * (2 * 45));
   CHECK(cost_csv(results).find("\"a \"\"soup\"\", with a comma\",") != std::string::npos);
 }
 

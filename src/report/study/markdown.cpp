@@ -155,7 +155,8 @@ std::string sweeps(const StudyResults& results) {
       "One at a time, the others at their defaults (16 bins, leaves of up to 8 triangles, no rule\n"
       "for smaller ones, no fallback, facing threshold 0.5, ratios 2 and 0, no least share):\n"
       "nearest-hit cost relative to the default, mean over the meshes. `inf` is never. Facing and\n"
-      "ratios with SPFH, the least share with the longest axis, all others with the best.\n\n";
+      "ratios with SPFH, the least share with the longest axis, all others with the best. Rules\n"
+      "for leaves where these may have up to 32 triangles.\n\n";
   std::vector<std::string> areas;
   std::vector<std::pair<std::string, double>> settings;
   for (const SweepRow& row : results.sweeps) {

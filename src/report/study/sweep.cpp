@@ -1,5 +1,6 @@
-// Experiment 3: one parameter of the build at a time, the others at their defaults. Those of
-// leaves by area are left out: they are those by chance, times an area that depends on the mesh.
+// Experiment 3: one parameter of the build at a time, the others at their defaults. Rules for
+// leaves are for large ones: of small nodes cost alone makes leaves. The rule by area is left out:
+// it is that by chance, times an area that depends on the mesh.
 #include <limits>
 #include <pah/bvh/analyze.hpp>
 
@@ -36,18 +37,27 @@ const std::vector<Parameter>& parameters() {
       {"min_inner_triangles",
        SplitAxis::best,
        0,
-       {0, 6, 9},
-       [](Config& c, double v) { c.build.leaves.triangles = whole(v); }},
+       {0, 8, 16, 32},
+       [](Config& c, double v) {
+         c.build.max_leaf = BuildConfig::most_leaf;
+         c.build.leaves.triangles = whole(v);
+       }},
       {"max_leaf_cost",
        SplitAxis::best,
        0,
        {0, 1e-4, 1e-3, 1e-2},
-       [](Config& c, double v) { c.build.leaves.cost = v; }},
+       [](Config& c, double v) {
+         c.build.max_leaf = BuildConfig::most_leaf;
+         c.build.leaves.cost = v;
+       }},
       {"max_leaf_probability",
        SplitAxis::best,
        0,
        {0, 1e-4, 1e-3, 1e-2},
-       [](Config& c, double v) { c.build.leaves.probability = v; }},
+       [](Config& c, double v) {
+         c.build.max_leaf = BuildConfig::most_leaf;
+         c.build.leaves.probability = v;
+       }},
       {"max_levels",
        SplitAxis::best,
        0,
