@@ -1,32 +1,16 @@
 #include "report/area_ray_costs.hpp"
 
 #include <pah/render/acceleration.hpp>
-#include <pah/scene/shapes.hpp>
 
 #include "bvh/build.hpp"
 #include "catch.hpp"
+#include "floor_below.hpp"
 
 using namespace pah;
 
 namespace {
 
-// A floor that fills the picture, seen from above.
-Scene floor_below() {
-  Scene scene;
-  PerspectiveCamera camera;
-  camera.position = {0, 4, 0};
-  camera.look_at = {0, 0, 0};
-  camera.up = {0, 0, 1};
-  camera.fov = 90;
-  scene.camera = camera;
-  scene.film.width = 16;
-  scene.film.height = 12;
-  scene.materials.push_back({"gray", DiffuseMaterial{}});
-  scene.meshes = {make_mesh(RectangleShape{{100, 100}})};
-  scene.instances.emplace_back();
-  return scene;
-}
-constexpr std::uint64_t pixels = 16 * 12;
+constexpr std::uint64_t pixels = 16 * 16;
 
 std::vector<AreaRayCosts> costs_of(const Scene& scene) {
   const World world = make_world(scene);
@@ -40,7 +24,7 @@ std::vector<AreaRayCosts> costs_of(const Scene& scene) {
 }  // namespace
 
 TEST_CASE("rays that an area answers cost what its BVH costs") {
-  Scene scene = floor_below();
+  Scene scene = test::floor_below();
   scene.lights.push_back({"bulb", PointLight{DVec3(0, 3, 0), Vec3(10)}});
   const std::vector<AreaRayCosts> costs = costs_of(scene);
   // One node and a block of two triangles, in whatever BVH.
@@ -57,7 +41,7 @@ TEST_CASE("rays that an area answers cost what its BVH costs") {
 }
 
 TEST_CASE("rays that an area can't answer cost what both BVHs cost") {
-  Scene scene = floor_below();
+  Scene scene = test::floor_below();
   scene.lights.push_back({"sun", DirectionalLight{{0, -1, 0}, Vec3(1), 0}});
   // Where the area does not reach.
   scene.meshes.push_back(scene.meshes.front());
@@ -65,7 +49,7 @@ TEST_CASE("rays that an area can't answer cost what both BVHs cost") {
   scene.instances.back().world_from_object[3] = DVec3(0, 10, 0);
   scene.influence_areas.derive = false;
   scene.influence_areas.declared = {
-      PlaneAreaDeclaration{"sun", DVec3(0, 2, 0), DVec3(0, -1, 0), DVec2(200), 3}};
+      PlaneAreaDeclaration{"sun", DVec3(0, 2, 0), DVec3(0, -1, 0), DVec2(2000), 3}};
   const std::vector<AreaRayCosts> costs = costs_of(scene);
   REQUIRE(costs.size() == 1);
   CHECK(costs[0].rays == pixels);

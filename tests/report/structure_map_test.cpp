@@ -1,28 +1,16 @@
 #include "report/structure_map.hpp"
 
 #include <algorithm>
-#include <pah/scene/shapes.hpp>
 
 #include "catch.hpp"
+#include "floor_below.hpp"
 
 using namespace pah;
 
 namespace {
 
-// A floor that fills the picture, seen from above, under a bulb.
 Scene floor_under_bulb() {
-  Scene scene;
-  PerspectiveCamera camera;
-  camera.position = {0, 4, 0};
-  camera.look_at = {0, 0, 0};
-  camera.up = {0, 0, 1};
-  camera.fov = 90;
-  scene.camera = camera;
-  scene.film.width = 16;
-  scene.film.height = 16;
-  scene.materials.push_back({"gray", DiffuseMaterial{}});
-  scene.meshes = {make_mesh(RectangleShape{{1000, 1000}})};
-  scene.instances.emplace_back();
+  Scene scene = test::floor_below();
   scene.lights.push_back({"bulb", PointLight{DVec3(0, 3, 0), Vec3(10)}});
   return scene;
 }
