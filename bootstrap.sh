@@ -113,7 +113,7 @@ case $command in
     ;;
   lint)
     git ls-files '*.cpp' '*.hpp' | xargs clang-format-14 --dry-run -Werror
-    cmake --preset sanitize
-    .ci/tidy build/sanitize
+    cmake --preset tidy
+    .ci/tidy build/tidy
     ;;
 esac
