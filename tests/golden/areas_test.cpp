@@ -1,9 +1,12 @@
 // Influence areas declared by hand, well or badly, never change a pixel.
+#include <filesystem>
+#include <pah/io/load_scene.hpp>
 #include <pah/render/acceleration.hpp>
 #include <pah/render/render.hpp>
 
 #include "catch.hpp"
 #include "reference.hpp"
+#include "support/paths.hpp"
 
 using namespace pah;
 
@@ -54,6 +57,13 @@ bool identical(const FilmPixel& a, const FilmPixel& b) {
          a.samples == b.samples && a.hits == b.hits;
 }
 
+std::size_t differing_pixels(const Film& a, const Film& b) {
+  std::size_t differing = 0;
+  for (std::size_t i = 0; i < a.pixels.size(); ++i)
+    differing += identical(a.pixels[i], b.pixels[i]) ? 0U : 1U;
+  return differing;
+}
+
 Film render_few(const World& world, const Accelerator& accelerator, const Scene& scene) {
   RenderSettings settings = scene.render;
   settings.samples = 4;
@@ -96,10 +106,7 @@ void check_pictures(const std::string& name, const std::vector<LocalConfig>& con
     const auto local = make_local_bvhs(world.triangles(), areas, config);
     const Film film = render_few(world, *local, scene);
     REQUIRE(film.pixels.size() == expected.pixels.size());
-    std::size_t differing = 0;
-    for (std::size_t i = 0; i < film.pixels.size(); ++i)
-      differing += identical(film.pixels[i], expected.pixels[i]) ? 0U : 1U;
-    CHECK(differing == 0);
+    CHECK(differing_pixels(film, expected) == 0);
     CHECK(film.features.size() == film.pixels.size());
     CHECK(film.features == expected.features);
     // They were asked, and could answer for rays that do not leave them.
@@ -129,4 +136,30 @@ TEST_CASE("Influence areas give the same golden pictures, however they are built
           "[full]") {
   for (const std::string name : {"lamps", "columns", "scattered", "orthographic"})
     check_pictures(name, configs(true));
+}
+
+TEST_CASE("Influence areas change no pixel of the example scenes, however they are built and found",
+          "[full]") {
+  std::uint64_t asked = 0;
+  for (const auto& file : std::filesystem::directory_iterator(test::source_folder() / "scenes")) {
+    if (file.path().extension() != ".yaml") continue;
+    CAPTURE(file.path());
+    Scene scene = load_scene(file.path()).scene;
+    scene.film.height = 64 * scene.film.height / scene.film.width;
+    scene.film.width = 64;
+    const World world = make_world(scene);
+    const std::vector<LocalArea> areas = many_areas(scene, world);
+    const Film expected = render_few(world, *make_global_bvh(world.triangles()), scene);
+    // All areas of scenes of many lights would take an hour.
+    constexpr std::size_t most_areas = 24;
+    const std::span<const LocalArea> some(areas.data(), std::min(areas.size(), most_areas));
+    for (const LocalConfig& config : configs(false)) {
+      const auto local = make_local_bvhs(world.triangles(), {some.begin(), some.end()}, config);
+      const Film film = render_few(world, *local, scene);
+      REQUIRE(film.pixels.size() == expected.pixels.size());
+      CHECK(differing_pixels(film, expected) == 0);
+      for (const LocalBvhUse& use : local->uses()) asked += use.asked;
+    }
+  }
+  CHECK(asked > 1'000'000);
 }
