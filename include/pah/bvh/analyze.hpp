@@ -49,7 +49,7 @@ struct TreeBalance {
   static constexpr std::uint32_t least_triangles = 64;
   static constexpr double lopsided_below = 1.0 / 16;
 
-  std::uint64_t nodes = 0;   // of so many triangles
+  std::uint64_t nodes = 0;  // of so many triangles
   // What the smaller child has, of all of a node: the mean over these, and the least; in (0, 0.5].
   double smaller_share = 0, smallest_share = 0;
   double lopsided = 0;  // the part of these whose smaller child has less than `lopsided_below`
