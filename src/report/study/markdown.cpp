@@ -135,9 +135,8 @@ std::string break_even(const StudyResults& results) {
 std::string balance(const StudyResults& results) {
   std::string text =
       "## Balance\n\n"
-      "The part of nodes, of those with 64 triangles and more, whose smaller child has less than "
-      "a\n"
-      "sixteenth of them:\n\n";
+      "The part of nodes, of those with 64 triangles and more, whose smaller child has less than\n"
+      "a sixteenth of them:\n\n";
   text += variants_table(results, results.costs, &CostRow::lopsided);
   text += "Mean depth of leaves, over the least that a tree of so many leaves can have:\n\n";
   return text + variants_table(results, results.costs, &CostRow::mean_depth);

@@ -21,6 +21,11 @@ constexpr double never = std::numeric_limits<double>::infinity();
 
 std::uint32_t whole(double value) { return static_cast<std::uint32_t>(value); }
 
+LeafRules& of_large_leaves(LocalConfig& config) {
+  config.build.max_leaf = BuildConfig::most_leaf;
+  return config.build.leaves;
+}
+
 const std::vector<Parameter>& parameters() {
   using Config = LocalConfig;
   static const std::vector<Parameter> all{
@@ -38,26 +43,17 @@ const std::vector<Parameter>& parameters() {
        SplitAxis::best,
        0,
        {0, 8, 16, 32},
-       [](Config& c, double v) {
-         c.build.max_leaf = BuildConfig::most_leaf;
-         c.build.leaves.triangles = whole(v);
-       }},
+       [](Config& c, double v) { of_large_leaves(c).triangles = whole(v); }},
       {"max_leaf_cost",
        SplitAxis::best,
        0,
        {0, 1e-4, 1e-3, 1e-2},
-       [](Config& c, double v) {
-         c.build.max_leaf = BuildConfig::most_leaf;
-         c.build.leaves.cost = v;
-       }},
+       [](Config& c, double v) { of_large_leaves(c).cost = v; }},
       {"max_leaf_probability",
        SplitAxis::best,
        0,
        {0, 1e-4, 1e-3, 1e-2},
-       [](Config& c, double v) {
-         c.build.max_leaf = BuildConfig::most_leaf;
-         c.build.leaves.probability = v;
-       }},
+       [](Config& c, double v) { of_large_leaves(c).probability = v; }},
       {"max_levels",
        SplitAxis::best,
        0,
