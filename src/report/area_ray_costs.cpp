@@ -14,27 +14,24 @@ struct AskedRays {
   [[nodiscard]] std::size_t size() const { return nearest.size() + any.size(); }
 };
 
-// By area.
+// Those of a row of pixels, by area.
 std::vector<AskedRays> rays_of(const World& world, const LocalBvhs& local, std::size_t areas,
-                               const FilmSettings& film) {
+                               const CameraRays& camera_rays, int width, int row) {
   std::vector<AskedRays> asked(areas);
-  const CameraRays camera_rays(world.camera, film);
-  for (int y = 0; y < film.height; ++y)
-    for (int x = 0; x < film.width; ++x) {
-      Ray ray = camera_rays.central(x, y);
-      Hit hit;
-      local.closest_hit({&ray, 1}, {&hit, 1});
-      ray.bundle = camera_bundle;
-      if (const auto area = local.area_of(ray)) asked[*area].nearest.push_back(ray);
-      if (!hit.valid()) continue;
-      const SeenPoint at = seen_point(world, ray, hit);
-      for (std::size_t i = 0; i < world.lights.size(); ++i) {
-        const std::optional<ExactBundle> bundle = exact_bundle(world.lights[i]);
-        if (!bundle || !is_lit(at, *bundle)) continue;
-        const Ray to_light = ray_to(at, *bundle, static_cast<LightId>(i));
-        if (const auto area = local.area_of(to_light)) asked[*area].any.push_back(to_light);
-      }
+  for (int x = 0; x < width; ++x) {
+    const Ray ray = camera_rays.central(x, row);
+    if (const auto area = local.area_of(ray)) asked[*area].nearest.push_back(ray);
+    Hit hit;
+    local.closest_hit({&ray, 1}, {&hit, 1});
+    if (!hit.valid()) continue;
+    const SeenPoint at = seen_point(world, ray, hit);
+    for (std::size_t i = 0; i < world.lights.size(); ++i) {
+      const std::optional<ExactBundle> bundle = exact_bundle(world.lights[i]);
+      if (!bundle || !is_lit(at, *bundle)) continue;
+      const Ray to_light = ray_to(at, *bundle, static_cast<LightId>(i));
+      if (const auto area = local.area_of(to_light)) asked[*area].any.push_back(to_light);
     }
+  }
   return asked;
 }
 
@@ -56,24 +53,31 @@ std::vector<AreaRayCosts> measure_area_costs(const World& world, const Bvh& glob
                                              const LocalConfig& config, const FilmSettings& film) {
   if (areas.empty()) return {};
   const auto local = make_local_bvhs(world.triangles(), areas, config);
-  const std::vector<AskedRays> asked = rays_of(world, *local, areas.size(), film);
+  const CameraRays camera_rays(world.camera, film);
   std::vector<AreaRayCosts> costs(areas.size());
-  for (std::size_t i = 0; i < areas.size(); ++i) {
-    AreaRayCosts& of = costs[i];
-    of.rays = asked[i].size();
-    if (of.rays == 0) continue;
-    const auto rays = static_cast<double>(of.rays);
-    of.local = cost_of(
-                   asked[i], [&](auto... arguments) { local->closest_hit(arguments...); },
-                   [&](auto... arguments) { local->occluded(arguments...); }) /
-               rays;
-    of.global = cost_of(
-                    asked[i], [&](auto... arguments) { closest_hits(global, arguments...); },
-                    [&](auto... arguments) { occluded(global, arguments...); }) /
-                rays;
+  for (int row = 0; row < film.height; ++row) {
+    const std::vector<AskedRays> asked =
+        rays_of(world, *local, areas.size(), camera_rays, film.width, row);
+    for (std::size_t i = 0; i < areas.size(); ++i) {
+      if (asked[i].size() == 0) continue;
+      AreaRayCosts& of = costs[i];
+      of.rays += asked[i].size();
+      of.local += cost_of(
+          asked[i], [&](auto... arguments) { local->closest_hit(arguments...); },
+          [&](auto... arguments) { local->occluded(arguments...); });
+      of.global += cost_of(
+          asked[i], [&](auto... arguments) { closest_hits(global, arguments...); },
+          [&](auto... arguments) { occluded(global, arguments...); });
+    }
   }
   const std::vector<LocalBvhUse> uses = local->uses();
-  for (std::size_t i = 0; i < areas.size(); ++i) costs[i].answered = uses[i].answered;
+  for (std::size_t i = 0; i < areas.size(); ++i) {
+    AreaRayCosts& of = costs[i];
+    of.answered = uses[i].answered;
+    if (of.rays == 0) continue;
+    of.local /= static_cast<double>(of.rays);
+    of.global /= static_cast<double>(of.rays);
+  }
   return costs;
 }
 
