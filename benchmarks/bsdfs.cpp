@@ -4,9 +4,9 @@
 #include <algorithm>
 
 #include "registrations.hpp"
-#include "render/material_eval.hpp"
-#include "render/sampler.hpp"
-#include "render/warp.hpp"
+#include "render/bsdf/material_eval.hpp"
+#include "render/sampling/sampler.hpp"
+#include "render/sampling/warp.hpp"
 
 namespace pah::bench {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <functional>
 
-#include "accel/build_local.hpp"
+#include "accel/local/build_local.hpp"
 #include "meshes.hpp"
 #include "registrations.hpp"
 

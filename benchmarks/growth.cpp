@@ -1,8 +1,8 @@
 // How rays a second, building and memory grow with the triangles of one scene.
 #include "generated_scenes.hpp"
-#include "ray_rates.hpp"
+#include "rays/ray_rates.hpp"
+#include "rays/subjects.hpp"
 #include "registrations.hpp"
-#include "subjects.hpp"
 
 namespace pah::bench {
 namespace {

@@ -1,14 +1,14 @@
 // Light samples a second of each kind of light, and choices a second among many.
-#include "render/lights.hpp"
+#include "render/light/lights.hpp"
 
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
-#include <pah/io/load_scene.hpp>
+#include <pah/load/load_scene.hpp>
 #include <pah/scene/shapes.hpp>
 
 #include "registrations.hpp"
-#include "render/sampler.hpp"
+#include "render/sampling/sampler.hpp"
 
 namespace pah::bench {
 namespace {
@@ -72,7 +72,7 @@ void measure_sample(benchmark::State& state, const Light& light) {
   const World world = world_with(light);
   const Lights lights(world, TextureStore(world.textures));
   measure(state, draws(world, room),
-          [&](const Draw& draw) { return lights.sample(0, draw.at, draw.u, draw.u2); });
+          [&](const Draw& draw) { return lights.sample(0, draw.at, {draw.u, draw.u2}); });
 }
 
 void measure_choice(benchmark::State& state, const std::string& scene_file) {

@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <map>
-#include <pah/io/mesh_file.hpp>
+#include <pah/load/mesh_file.hpp>
 #include <pah/scene/areas.hpp>
 #include <pah/scene/placement.hpp>
 #include <pah/scene/shapes.hpp>

@@ -2,7 +2,7 @@
 #include <benchmark/benchmark.h>
 
 #include <numeric>
-#include <pah/io/load_scene.hpp>
+#include <pah/load/load_scene.hpp>
 #include <pah/render/render.hpp>
 
 #include "registrations.hpp"

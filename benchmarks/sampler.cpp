@@ -1,5 +1,5 @@
 // Points a second of the sample sequence.
-#include "render/sampler.hpp"
+#include "render/sampling/sampler.hpp"
 
 #include <benchmark/benchmark.h>
 

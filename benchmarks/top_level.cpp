@@ -7,7 +7,7 @@
 #include <pah/influence/influence_area.hpp>
 #include <random>
 
-#include "accel/top_level.hpp"
+#include "accel/local/top_level.hpp"
 #include "registrations.hpp"
 
 namespace pah::bench {

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <pah/accel/trees.hpp>
 
-#include "accel/build_local.hpp"
+#include "accel/local/build_local.hpp"
 
 namespace pah {
 

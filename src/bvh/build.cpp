@@ -10,9 +10,9 @@
 #include <optional>
 #include <stdexcept>
 
+#include "base/parallel_for.hpp"
+#include "base/task_group.hpp"
 #include "bvh/bins.hpp"
-#include "parallel/parallel_for.hpp"
-#include "parallel/task_group.hpp"
 
 namespace pah {
 

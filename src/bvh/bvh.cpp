@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "parallel/parallel_for.hpp"
+#include "base/parallel_for.hpp"
 
 namespace pah {
 

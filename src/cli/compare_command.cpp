@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include <pah/image/compare.hpp>
-#include <pah/io/image_file.hpp>
+#include <pah/image/image_file.hpp>
 
 #include "report/json_value.hpp"
 

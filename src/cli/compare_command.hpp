@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <optional>
 
-#include "cli/exit_code.hpp"
+#include "cli/terminal/exit_code.hpp"
 
 namespace pah::cli {
 

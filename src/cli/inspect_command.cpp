@@ -3,26 +3,26 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <pah/image/image_file.hpp>
 #include <pah/influence/bundle_area.hpp>
-#include <pah/io/image_file.hpp>
-#include <pah/io/load_scene.hpp>
+#include <pah/load/load_scene.hpp>
 #include <pah/render/acceleration.hpp>
 #include <pah/scene/world.hpp>
 
-#include "accel/build_local.hpp"
+#include "accel/local/build_local.hpp"
+#include "base/output_file.hpp"
 #include "bvh/bvh_cost.hpp"
-#include "cli/console.hpp"
-#include "cli/film_size.hpp"
-#include "cli/interrupt.hpp"
-#include "cli/warnings.hpp"
-#include "io/output_file.hpp"
+#include "cli/terminal/console.hpp"
+#include "cli/terminal/film_size.hpp"
+#include "cli/terminal/interrupt.hpp"
+#include "cli/terminal/warnings.hpp"
 #include "report/acceleration_warnings.hpp"
-#include "report/area_gltf.hpp"
-#include "report/box_gltf.hpp"
-#include "report/false_color.hpp"
-#include "report/inspect_report.hpp"
-#include "report/overlay.hpp"
-#include "report/structure_map.hpp"
+#include "report/inspect/inspect_report.hpp"
+#include "report/inspect/pictures/area_gltf.hpp"
+#include "report/inspect/pictures/box_gltf.hpp"
+#include "report/inspect/pictures/false_color.hpp"
+#include "report/inspect/pictures/overlay.hpp"
+#include "report/inspect/pictures/structure_map.hpp"
 
 namespace pah::cli {
 namespace {

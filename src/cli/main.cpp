@@ -11,18 +11,18 @@
 #include <pah/render/acceleration.hpp>
 
 #include "cli/compare_command.hpp"
-#include "cli/console.hpp"
-#include "cli/exit_code.hpp"
-#include "cli/frames.hpp"
 #include "cli/inspect_command.hpp"
-#include "cli/interrupt.hpp"
-#include "cli/merge_command.hpp"
+#include "cli/merge/merge_command.hpp"
 #include "cli/option_values.hpp"
-#include "cli/render_command.hpp"
-#include "cli/report_exception.hpp"
+#include "cli/render/frames.hpp"
+#include "cli/render/render_command.hpp"
 #include "cli/study_command.hpp"
-#include "cli/watch_command.hpp"
-#include "io/yaml/suggest.hpp"
+#include "cli/terminal/console.hpp"
+#include "cli/terminal/exit_code.hpp"
+#include "cli/terminal/interrupt.hpp"
+#include "cli/terminal/report_exception.hpp"
+#include "cli/watch/watch_command.hpp"
+#include "load/yaml/suggest.hpp"
 
 namespace pah::cli {
 namespace {

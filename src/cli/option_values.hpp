@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "cli/render_command.hpp"
+#include "cli/render/render_command.hpp"
 
 namespace pah::cli {
 

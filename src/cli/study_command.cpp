@@ -5,14 +5,14 @@
 #include <algorithm>
 #include <cstdio>
 #include <fstream>
-#include <pah/io/load_scene.hpp>
-#include <pah/io/mesh_file.hpp>
+#include <pah/load/load_scene.hpp>
+#include <pah/load/mesh_file.hpp>
 #include <pah/scene/world.hpp>
 
-#include "cli/console.hpp"
-#include "io/extension.hpp"
-#include "io/output_file.hpp"
-#include "report/study/rates.hpp"
+#include "base/extension.hpp"
+#include "base/output_file.hpp"
+#include "cli/terminal/console.hpp"
+#include "report/study/rates/rates.hpp"
 #include "report/study/stage.hpp"
 #include "report/study/study.hpp"
 

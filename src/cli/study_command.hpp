@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "cli/exit_code.hpp"
+#include "cli/terminal/exit_code.hpp"
 
 namespace pah::cli {
 

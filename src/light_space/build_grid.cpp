@@ -2,6 +2,7 @@
 #include <atomic>
 #include <cmath>
 
+#include "base/parallel_for.hpp"
 #include "geometry/ray_box.hpp"
 #include "geometry/rounding.hpp"
 #include "light_space/cell_entries.hpp"
@@ -9,7 +10,6 @@
 #include "light_space/light_grid.hpp"
 #include "light_space/outline.hpp"
 #include "light_space/reach.hpp"
-#include "parallel/parallel_for.hpp"
 
 namespace pah {
 

@@ -4,7 +4,7 @@
 #include <bit>
 #include <utility>
 
-#include "parallel/parallel_for.hpp"
+#include "base/parallel_for.hpp"
 
 namespace pah {
 

@@ -5,8 +5,8 @@
 #include <bit>
 #include <cmath>
 
+#include "base/parallel_for.hpp"
 #include "light_space/outline.hpp"
-#include "parallel/parallel_for.hpp"
 
 namespace pah {
 

@@ -4,8 +4,8 @@
 #include <bit>
 #include <cmath>
 
+#include "base/parallel_for.hpp"
 #include "light_space/walk.hpp"
-#include "parallel/parallel_for.hpp"
 
 namespace pah {
 

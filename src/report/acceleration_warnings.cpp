@@ -6,7 +6,7 @@
 #include <optional>
 #include <variant>
 
-#include "report/format_bytes.hpp"
+#include "base/format_bytes.hpp"
 
 namespace pah {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "report/format_bytes.hpp"
+#include "base/format_bytes.hpp"
 
 namespace pah {
 namespace {

@@ -8,7 +8,7 @@
 #include <stdexcept>
 #include <unordered_map>
 
-#include "geometry/mix_bits.hpp"
+#include "base/mix_bits.hpp"
 #include "geometry/normal.hpp"
 
 namespace pah {

@@ -4,7 +4,7 @@
 #include <pah/scene/world.hpp>
 #include <stdexcept>
 
-#include "parallel/parallel_for.hpp"
+#include "base/parallel_for.hpp"
 #include "scene/bounds.hpp"
 #include "scene/enclosure.hpp"
 #include "scene/origin.hpp"

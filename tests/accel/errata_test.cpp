@@ -7,9 +7,9 @@
 #include <pah/bvh/analyze.hpp>
 #include <pah/influence/bundle_area.hpp>
 
-#include "accel/build_local.hpp"
-#include "accel/bundle_heuristic.hpp"
-#include "accel/top_level.hpp"
+#include "accel/local/build_local.hpp"
+#include "accel/local/bundle_heuristic.hpp"
+#include "accel/local/top_level.hpp"
 #include "bvh/bvh_cost.hpp"
 #include "catch.hpp"
 #include "geometry/ray_triangle.hpp"

@@ -4,8 +4,8 @@
 #include <pah/bvh/analyze.hpp>
 #include <pah/influence/bundle_area.hpp>
 
-#include "accel/build_local.hpp"
-#include "accel/bundle_heuristic.hpp"
+#include "accel/local/build_local.hpp"
+#include "accel/local/bundle_heuristic.hpp"
 #include "catch.hpp"
 #include "support/answers.hpp"
 #include "support/soups.hpp"

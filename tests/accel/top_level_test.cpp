@@ -1,6 +1,6 @@
 // Areas that hold a point are found, whatever finds them, and rays without a bundle are answered
 // like by brute force whatever that and the tolerance are.
-#include "accel/top_level.hpp"
+#include "accel/local/top_level.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,7 +1,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <pah/geometry/vec.hpp>
-#include <pah/io/image_file.hpp>
+#include <pah/image/image_file.hpp>
 
 #include "catch.hpp"
 #include "program.hpp"

@@ -1,6 +1,6 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
-#include <pah/io/image_file.hpp>
+#include <pah/image/image_file.hpp>
 #include <sstream>
 
 #include "catch.hpp"

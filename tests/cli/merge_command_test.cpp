@@ -1,8 +1,8 @@
 // Pictures from parts that were rendered one by one.
 #include <algorithm>
 #include <cmath>
-#include <pah/io/film_file.hpp>
-#include <pah/io/image_file.hpp>
+#include <pah/image/image_file.hpp>
+#include <pah/render/film_file.hpp>
 
 #include "catch.hpp"
 #include "layer_pixels.hpp"

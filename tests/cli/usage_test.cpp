@@ -2,7 +2,7 @@
 #include <sys/resource.h>
 
 #include <filesystem>
-#include <pah/io/image_file.hpp>
+#include <pah/image/image_file.hpp>
 
 #include "catch.hpp"
 #include "program.hpp"

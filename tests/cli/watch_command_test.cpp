@@ -3,7 +3,7 @@
 
 #include <chrono>
 #include <filesystem>
-#include <pah/io/image_file.hpp>
+#include <pah/image/image_file.hpp>
 #include <thread>
 
 #include "catch.hpp"

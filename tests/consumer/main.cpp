@@ -1,5 +1,5 @@
-#include <pah/io/image_file.hpp>
-#include <pah/io/load_scene.hpp>
+#include <pah/image/image_file.hpp>
+#include <pah/load/load_scene.hpp>
 #include <pah/render/acceleration.hpp>
 #include <pah/render/render.hpp>
 

@@ -1,6 +1,6 @@
 // Influence areas declared by hand, well or badly, never change a pixel.
 #include <filesystem>
-#include <pah/io/load_scene.hpp>
+#include <pah/load/load_scene.hpp>
 #include <pah/render/acceleration.hpp>
 #include <pah/render/render.hpp>
 

@@ -1,7 +1,7 @@
 #include "failure_pictures.hpp"
 
 #include <cmath>
-#include <pah/io/image_file.hpp>
+#include <pah/image/image_file.hpp>
 
 #include "support/paths.hpp"
 

@@ -3,7 +3,7 @@
 #include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
 
-#include <pah/io/image_file.hpp>
+#include <pah/image/image_file.hpp>
 
 #include "support/paths.hpp"
 
@@ -11,6 +11,7 @@ namespace pah::golden {
 namespace {
 
 const std::filesystem::path folder = test::source_folder() / "golden";
+const std::filesystem::path references = folder / "references";
 
 Image to_image(const Batches& batches, const std::vector<DVec3>& pixels) {
   return {batches.width(), batches.height(), {pixels.begin(), pixels.end()}};
@@ -46,15 +47,15 @@ void write_reference(const std::string& name, const LoadedScene& scene, const Ba
                             reference_seed + static_cast<std::uint64_t>(batches.count()) - 1)}};
   for (const auto& [kind, pixels] :
        {std::pair{"mean", &batches.mean()}, {"variance", &variance_of_mean}})
-    write_image(folder / fmt::format("{}_{}.exr", name, kind),
+    write_image(references / fmt::format("{}_{}.exr", name, kind),
                 {{"", {"R", "G", "B"}, to_image(batches, *pixels)}}, options);
 }
 
 Reference read_reference(const std::string& name) {
-  const std::filesystem::path mean_file = folder / (name + "_mean.exr");
+  const std::filesystem::path mean_file = references / (name + "_mean.exr");
   const Image mean = read_image(mean_file);
   const int count = std::stoi(read_metadata(mean_file, "batches"));
-  std::vector<DVec3> variance = to_doubles(read_image(folder / (name + "_variance.exr")));
+  std::vector<DVec3> variance = to_doubles(read_image(references / (name + "_variance.exr")));
   for (DVec3& v : variance) v *= count;  // of one batch, not of the mean
   return {Batches(mean.width, mean.height, count, to_doubles(mean), variance),
           read_metadata(mean_file, "scene_hash")};

@@ -3,7 +3,7 @@
 
 #include <array>
 #include <filesystem>
-#include <pah/io/load_scene.hpp>
+#include <pah/load/load_scene.hpp>
 #include <string>
 
 #include "batches.hpp"

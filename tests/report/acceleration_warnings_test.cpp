@@ -2,8 +2,8 @@
 
 #include <pah/scene/shapes.hpp>
 
+#include "base/format_bytes.hpp"
 #include "catch.hpp"
-#include "report/format_bytes.hpp"
 
 using namespace pah;
 

@@ -1,4 +1,4 @@
-#include "report/area_ray_costs.hpp"
+#include "report/inspect/area_ray_costs.hpp"
 
 #include <pah/render/acceleration.hpp>
 

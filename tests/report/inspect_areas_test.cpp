@@ -5,7 +5,7 @@
 
 #include "catch.hpp"
 #include "read_gltf.hpp"
-#include "report/area_gltf.hpp"
+#include "report/inspect/pictures/area_gltf.hpp"
 
 using namespace pah;
 using nlohmann::json;

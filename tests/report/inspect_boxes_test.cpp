@@ -2,14 +2,14 @@
 #include <algorithm>
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <pah/io/mesh_file.hpp>
+#include <pah/load/mesh_file.hpp>
 #include <set>
 
 #include "catch.hpp"
 #include "hand_made_tree.hpp"
-#include "io/mesh/gltf_document.hpp"
+#include "load/mesh/gltf/document.hpp"
 #include "read_gltf.hpp"
-#include "report/box_gltf.hpp"
+#include "report/inspect/pictures/box_gltf.hpp"
 #include "support/temporary_folder.hpp"
 
 using namespace pah;

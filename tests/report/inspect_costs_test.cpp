@@ -5,8 +5,8 @@
 #include "bvh/build.hpp"
 #include "catch.hpp"
 #include "image/srgb.hpp"
-#include "render/camera_rays.hpp"
-#include "report/false_color.hpp"
+#include "render/path/camera_rays.hpp"
+#include "report/inspect/pictures/false_color.hpp"
 #include "support/soups.hpp"
 
 using namespace pah;

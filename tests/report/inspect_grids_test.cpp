@@ -1,6 +1,6 @@
 // What people read of grids.
 #include "catch.hpp"
-#include "report/inspect_report.hpp"
+#include "report/inspect/inspect_report.hpp"
 
 using namespace pah;
 

@@ -5,7 +5,7 @@
 #include "bvh/bvh_cost.hpp"
 #include "catch.hpp"
 #include "hand_made_tree.hpp"
-#include "report/inspect_report.hpp"
+#include "report/inspect/inspect_report.hpp"
 
 using namespace pah;
 

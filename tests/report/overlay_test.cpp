@@ -1,12 +1,12 @@
 // Lines over pictures: where they are, what hides them, and what they leave alone.
-#include "report/overlay.hpp"
+#include "report/inspect/pictures/overlay.hpp"
 
 #include <algorithm>
 #include <pah/render/render.hpp>
 #include <pah/scene/shapes.hpp>
 
 #include "catch.hpp"
-#include "render/camera_rays.hpp"
+#include "render/path/camera_rays.hpp"
 
 using namespace pah;
 

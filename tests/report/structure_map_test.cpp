@@ -1,4 +1,4 @@
-#include "report/structure_map.hpp"
+#include "report/inspect/pictures/structure_map.hpp"
 
 #include <algorithm>
 

@@ -1,12 +1,12 @@
 #include <algorithm>
 #include <sstream>
 
+#include "base/parallel_for.hpp"
 #include "catch.hpp"
-#include "parallel/parallel_for.hpp"
-#include "report/study/answers.hpp"
-#include "report/study/rate_summary.hpp"
-#include "report/study/rates.hpp"
+#include "report/study/rates/answers.hpp"
+#include "report/study/rates/rates.hpp"
 #include "report/study/stage.hpp"
+#include "report/study/text/rate_summary.hpp"
 #include "support/soups.hpp"
 
 using namespace pah;

@@ -6,7 +6,7 @@
 #include <sstream>
 
 #include "catch.hpp"
-#include "report/study/means.hpp"
+#include "report/study/text/means.hpp"
 #include "support/soups.hpp"
 
 using namespace pah;

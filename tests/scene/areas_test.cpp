@@ -5,7 +5,7 @@
 #include <random>
 
 #include "catch.hpp"
-#include "render/camera_rays.hpp"
+#include "render/path/camera_rays.hpp"
 
 using namespace pah;
 

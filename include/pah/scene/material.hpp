@@ -1,7 +1,7 @@
 // Materials, as values. Instances refer to them by MaterialId, an index in Scene::materials.
 #pragma once
 
-#include <pah/scene/texture.hpp>
+#include <pah/image/texture.hpp>
 #include <string>
 #include <variant>
 

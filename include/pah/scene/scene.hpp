@@ -2,12 +2,12 @@
 // programs may as well fill one in themselves and hand it to `make_world`.
 #pragma once
 
+#include <pah/image/texture.hpp>
 #include <pah/scene/camera.hpp>
 #include <pah/scene/light.hpp>
 #include <pah/scene/material.hpp>
 #include <pah/scene/mesh.hpp>
 #include <pah/scene/settings.hpp>
-#include <pah/scene/texture.hpp>
 
 namespace pah {
 

@@ -3,10 +3,10 @@
 // module that holds these.
 #pragma once
 
-#include <pah/io/image_file.hpp>
+#include <pah/image/image_file.hpp>
 
-#include "io/image_header.hpp"
-#include "scene/texture_images.hpp"
+#include "image/image_header.hpp"
+#include "image/texture/images.hpp"
 
 namespace pah::cli {
 

@@ -3,7 +3,7 @@
 #include <dlfcn.h>
 
 #include "cli/pictures/functions.hpp"
-#include "io/image_library.hpp"
+#include "image/image_library.hpp"
 
 namespace pah {
 namespace {

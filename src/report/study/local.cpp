@@ -1,6 +1,6 @@
 #include "report/study/local.hpp"
 
-#include "accel/build_local.hpp"
+#include "accel/local/build_local.hpp"
 
 namespace pah {
 

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "base/parallel_for.hpp"
 #include "geometry/ray_triangle.hpp"
-#include "parallel/parallel_for.hpp"
 
 namespace pah {
 namespace {

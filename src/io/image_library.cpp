@@ -1,7 +1,0 @@
-#include "io/image_library.hpp"
-
-namespace pah {
-
-void load_image_library() {}
-
-}  // namespace pah

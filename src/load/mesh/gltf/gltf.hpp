@@ -1,0 +1,13 @@
+// glTF 2.0: meshes, materials, cameras and lights of one scene.
+#pragma once
+
+#include <filesystem>
+#include <pah/load/mesh_file.hpp>
+
+namespace pah {
+
+// Adds the file's meshes and parts to `out`; of a file that is not merged, its materials, textures,
+// cameras and lights too. What cannot be shown is named in a warning. Throws MeshFileError.
+void import_gltf(const std::filesystem::path& file, const MeshFileOptions& options, MeshFile& out);
+
+}  // namespace pah

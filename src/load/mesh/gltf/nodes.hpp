@@ -1,0 +1,20 @@
+// The nodes of a glTF file: where its meshes, cameras and lights are.
+#pragma once
+
+#include <pah/load/mesh_file.hpp>
+#include <vector>
+
+#include "load/mesh/gltf/json.hpp"
+
+namespace pah {
+
+struct GltfPlace {
+  std::size_t mesh;
+  glm::dmat4x3 world_from_object;
+};
+
+// Where the document's scene has its meshes; its cameras and lights go into `out`. glTF's lights
+// are photometric (candela, lux): 683 lm/W turn them into watts. Throws MeshFileError.
+[[nodiscard]] std::vector<GltfPlace> read_gltf_nodes(const Json& document, MeshFile& out);
+
+}  // namespace pah

@@ -1,0 +1,62 @@
+#include "load/mesh/obj/statement_text.hpp"
+
+#include <algorithm>
+#include <pah/load/mesh_file.hpp>
+
+#include "load/mesh/common/text.hpp"
+
+namespace pah {
+namespace {
+
+// Behind the first line end from `from` on that no statement goes across; 0 if there is none.
+std::size_t find_cut(std::string_view text, std::size_t from, char line_end) {
+  for (std::size_t at = from; (at = text.find(line_end, at)) != std::string_view::npos; ++at) {
+    std::size_t last = at;
+    while (last > 0 && is_blank(text[last - 1]) && text[last - 1] != line_end) --last;
+    if (last == 0 || text[last - 1] != '\\') return at + 1;
+  }
+  return 0;
+}
+
+// Behind the last such line end; 0 if there is none.
+std::size_t find_last_cut(std::string_view text, char line_end) {
+  std::size_t last = 0;
+  for (std::size_t cut = 0; (cut = find_cut(text, cut, line_end)) != 0;) last = cut;
+  return last;
+}
+
+}  // namespace
+
+std::span<const std::string_view> StatementText::next(std::size_t most, int lines_before) {
+  pieces_.clear();
+  for (std::size_t wanted = most * piece_bytes_;; wanted *= 2) {
+    std::string_view text = file_.ahead(wanted);
+    const bool all = text.size() == file_.left();
+    std::size_t used = 0;
+    while (!text.empty() && pieces_.size() < most) {
+      std::size_t size =
+          text.size() < piece_bytes_ ? 0 : find_cut(text, piece_bytes_ - 1, line_end());
+      if (size == 0 && all) size = text.size();
+      if (size == 0) break;
+      pieces_.push_back(text.substr(0, size));
+      text.remove_prefix(size);
+      used += size;
+    }
+    const bool too_long = pieces_.empty() && text.size() > longest_line;
+    // What stands before a line without end is read first.
+    if (too_long && !all) used = find_last_cut(text, line_end());
+    if (pieces_.empty() && used > 0) pieces_.push_back(text.substr(0, used));
+    if (!pieces_.empty() || all) {
+      file_.skip(used);
+      return pieces_;
+    }
+    if (too_long) {
+      const bool one_line = text.find(line_end()) == std::string_view::npos;
+      throw MeshFileError(std::string(one_line ? "a line" : "a statement") + " of more than " +
+                              std::to_string(longest_line >> 20) + " MB",
+                          lines_before + 1);
+    }
+  }
+}
+
+}  // namespace pah

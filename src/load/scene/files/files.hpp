@@ -1,0 +1,74 @@
+// The files that a scene names: where they are, that they can be read, and what they hash to.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+
+#include "load/scene/files/loaded_files.hpp"
+#include "load/yaml/reader.hpp"
+
+namespace pah {
+
+// FNV-1a, 128 bits (Fowler, Noll, Vo; RFC 9923): tells scenes apart, not proof against malice.
+class ContentHash {
+ public:
+  void add(std::string_view bytes);
+  // As add(), but eight bytes in a step, which is as much faster and gives another hash.
+  void add_words(std::string_view bytes);
+  // With its length, so that neighbors do not run together.
+  void add_part(std::string_view bytes);
+  [[nodiscard]] std::string hex() const;
+
+ private:
+  void step(std::uint64_t bits);
+
+  std::uint64_t high_ = 0x6C62272E07BB0142U;
+  std::uint64_t low_ = 0x62B821756295C58DU;
+};
+
+class SceneFiles {
+ public:
+  using OnFile = std::function<void(const std::filesystem::path&)>;
+
+  // `on_file` is called with the whole path of each file before it is looked at.
+  // `loaded` may be null.
+  explicit SceneFiles(std::filesystem::path folder, OnFile on_file = {},
+                      LoadedFiles::Impl* loaded = nullptr)
+      : folder_(std::move(folder)), on_file_(std::move(on_file)), loaded_(loaded) {}
+
+  // The whole path of the regular file that `node` names, its bytes added to the hash when it is
+  // first seen; nothing, and an error, if it cannot be read or is larger than `most_bytes`.
+  std::optional<std::filesystem::path> open(ReadContext& context, const YamlNode& node,
+                                            const ValueName& name, std::uint64_t most_bytes);
+  // As open(), of a file that another one names; `node` is where that one is named.
+  std::optional<std::filesystem::path> open(ReadContext& context, const Mark& mark,
+                                            const std::filesystem::path& file,
+                                            std::uint64_t most_bytes);
+
+  // Tells whoever watches files of one that is read for another.
+  void announce(const std::filesystem::path& file) const {
+    if (on_file_) on_file_(file);
+  }
+
+  ContentHash& hash() { return hash_; }
+  [[nodiscard]] LoadedFiles::Impl* loaded() const { return loaded_; }
+  [[nodiscard]] const std::filesystem::path& folder() const { return folder_; }
+
+ private:
+  std::filesystem::path folder_;
+  // The hash of what is in the file; none if it cannot be read to its end.
+  [[nodiscard]] std::optional<std::string> content_hash(const std::filesystem::path& file,
+                                                        std::uintmax_t size) const;
+
+  OnFile on_file_;
+  LoadedFiles::Impl* loaded_;
+  ContentHash hash_;
+  std::unordered_map<std::string, bool> seen_;  // by whole path: readable
+};
+
+}  // namespace pah

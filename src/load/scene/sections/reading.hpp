@@ -1,0 +1,136 @@
+// The sections of a scene, read one by one into a Scene.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <pah/load/load_scene.hpp>
+#include <pah/load/mesh_file.hpp>
+#include <pah/scene/scene.hpp>
+#include <string>
+#include <unordered_map>
+
+#include "load/scene/files/files.hpp"
+#include "load/yaml/reader.hpp"
+
+namespace pah {
+
+// Ids by name, for one sort of thing.
+class NameTable {
+ public:
+  explicit NameTable(std::string what) : what_(std::move(what)) {}
+
+  // False, and an error at `mark`, if there is one of this name already.
+  bool add(ReadContext& context, const std::string& name, std::uint32_t id, const Mark& mark);
+  // Does nothing if there is one of this name already.
+  void add_unless_known(const std::string& name, std::uint32_t id);
+  // Reports an unknown name.
+  std::optional<std::uint32_t> find(ReadContext& context, const YamlNode& node,
+                                    const ValueName& name) const;
+
+ private:
+  struct Entry {
+    std::uint32_t id;
+    Mark mark;
+  };
+  std::string what_;
+  std::unordered_map<std::string, Entry> entries_;
+  std::vector<std::string> names_;  // in order, for suggestions
+};
+
+inline constexpr std::size_t no_instance = ~std::size_t{0};
+
+// A mesh file, its meshes, materials and textures in the scene.
+struct ImportedFile {
+  std::vector<MeshFilePart> parts;  // ids are the scene's
+  std::vector<AreaLight> emission;  // per part
+  std::vector<NamedCamera> cameras;
+  std::vector<Light> lights;
+};
+
+// Where a picture is first named, and its bytes if it is inside of another file.
+struct NamedPicture {
+  Mark mark;
+  std::shared_ptr<const std::string> bytes{};
+};
+
+struct SceneReading {
+  ReadContext& context;
+  Scene& scene;
+  SceneFiles& files;
+  const LoadLimits& limits;
+  NameTable textures{"texture"};
+  NameTable materials{"material"};
+  NameTable meshes{"mesh"};
+  NameTable lights{"light"};
+  std::unordered_map<std::string, TextureId> images{};       // inline ones, by path and color space
+  std::unordered_map<TextureId, TextureId> linear_copies{};  // of images used as numbers
+  std::map<std::filesystem::path, NamedPicture> pictures{};  // of textures
+  std::vector<std::size_t> first_instances{};  // by id in `meshes`; no_instance if it has none
+  std::unordered_map<std::string, ImportedFile> imported{};  // mesh files, by path and options
+  std::unordered_map<int, MaterialId> unnamed_materials{};   // by reflectance in percent
+  std::uint64_t triangles = 0;                               // of all instances so far
+  const YamlNode* camera = nullptr;                          // the camera section
+  bool has_imported_camera = false;                          // from a mesh file
+};
+
+// "mesh 'floor'", or "mesh 3" (from 1) if it has no name.
+[[nodiscard]] std::string title_of(const YamlNode& node, const std::string& what,
+                                   std::size_t index);
+
+void read_camera(SceneReading& reading, const YamlNode* node);
+// Makes a mesh file's camera the scene's, adjusted by the camera section, which must not place one
+// itself. `mark` is where the file's camera is asked for.
+void adopt_camera(SceneReading& reading, const Camera& camera, const Mark& mark);
+void read_film(SceneReading& reading, const YamlNode* node);
+void read_render(SceneReading& reading, const YamlNode* node);
+void read_textures(SceneReading& reading, const YamlNode* node);
+void read_materials(SceneReading& reading, const YamlNode* node);
+void read_meshes(SceneReading& reading, const YamlNode* node);
+void read_lights(SceneReading& reading, const YamlNode* node);
+void read_influence_areas(SceneReading& reading, const YamlNode* node);
+void read_acceleration(SceneReading& reading, const YamlNode* node);
+
+// A linear color: [r, g, b], one number for all three, or "#rrggbb" in sRGB.
+bool read_color(ReadContext& context, const YamlNode& node, const ValueName& name, Vec3& value,
+                const Range& range = not_negative);
+// Values, or {texture: name} or {image: file}, scaled; `range` is that of value and scale.
+void read_input(SceneReading& reading, MapReader& map, std::string_view key, ColorInput& input,
+                const Range& range);
+void read_input(SceneReading& reading, MapReader& map, std::string_view key, ScalarInput& input,
+                const Range& range);
+// {texture: name} or {image: file}, taken as numbers and not as colors.
+void read_normal_map(SceneReading& reading, MapReader& map, std::string_view key,
+                     TextureId& texture);
+// The texture for an image file that something names directly.
+std::optional<TextureId> image_texture(SceneReading& reading, const YamlNode& node,
+                                       const ValueName& name, ColorSpace color_space);
+
+// A list of steps, the first applied first, or one step.
+[[nodiscard]] DMat4 read_transform(ReadContext& context, const YamlNode* node,
+                                   const std::string& title);
+// {axis, angle}, or an angle about y.
+[[nodiscard]] DMat3 read_rotation(ReadContext& context, const YamlNode* node,
+                                  const ValueName& name);
+// Where the copies of what stands at `transform` are: its keys transform, repeat and scatter.
+[[nodiscard]] std::vector<glm::dmat4x3> read_placement(SceneReading& reading, MapReader& map);
+
+// What the geometry of a mesh or area light is given.
+struct GeometryUse {
+  std::string name;
+  std::optional<MaterialId> material;
+  LightId light = no_light;
+};
+// The keys `shape` or `file` with all that belongs to them, and the placement: adds meshes and
+// instances to the scene.
+void read_geometry(SceneReading& reading, MapReader& map, const GeometryUse& use);
+
+// The material that `key` names.
+[[nodiscard]] std::optional<MaterialId> read_material_name(SceneReading& reading, MapReader& map);
+// A gray diffuse material that the scene does not name, made when first needed.
+[[nodiscard]] MaterialId unnamed_material(SceneReading& reading, int percent);
+
+// Reports the pictures that cannot be read or are too large; warns of values that are not numbers.
+void check_pictures(SceneReading& reading);
+
+}  // namespace pah

@@ -1,0 +1,208 @@
+// Reads maps of a YAML tree into values, checked: types, ranges, names, missing and unknown keys.
+//
+// The reading code is the one description of the language: run over nothing with a Language to
+// fill in, it tells which keys every kind of map has (see describe_language).
+#pragma once
+
+#include <array>
+#include <functional>
+#include <map>
+#include <pah/geometry/vec.hpp>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "load/yaml/error_collector.hpp"
+#include "load/yaml/tree.hpp"
+
+namespace pah {
+
+// What a key of a map may be.
+struct KeyDescription {
+  bool required = false;
+  std::vector<std::string> options;  // if it is one of a few words
+};
+// Keys by kind of map, such as "material diffuse".
+using Language = std::map<std::string, std::map<std::string, KeyDescription>>;
+
+struct ReadContext {
+  ErrorCollector& errors;
+  Language* language = nullptr;  // if set: nothing is read, every kind is described
+  // For an unknown key, a hint for its message by the keys that there are; may be empty.
+  std::string (*hint)(std::string_view key, const std::vector<std::string>& known) = nullptr;
+};
+
+// The numbers that a value may be.
+struct Range {
+  double min = -1e18;  // squares of everything in a scene are finite in float
+  double max = 1e18;
+  bool min_open = false;
+  bool max_open = false;
+};
+inline constexpr Range any_number{};
+inline constexpr Range positive{0, 1e18, true, false};
+inline constexpr Range not_negative{0, 1e18, false, false};
+inline constexpr Range unit_range{0, 1, false, false};
+
+// A value's place, in words: "'fov' of camera".
+using ValueName = std::string;
+
+// "the number 3", "'abc'", "a list", "a map", "nothing".
+[[nodiscard]] std::string describe(const YamlNode& node);
+[[nodiscard]] bool is_number(const YamlNode& node);
+
+// Each reports what is wrong and returns false, `value` unchanged.
+bool read_value(ReadContext& context, const YamlNode& node, const ValueName& name, double& value,
+                const Range& range = any_number);
+bool read_value(ReadContext& context, const YamlNode& node, const ValueName& name, float& value,
+                const Range& range = any_number);
+bool read_value(ReadContext& context, const YamlNode& node, const ValueName& name, int& value,
+                int min, int max);
+bool read_value(ReadContext& context, const YamlNode& node, const ValueName& name,
+                std::uint32_t& value, std::uint32_t min, std::uint32_t max);
+bool read_value(ReadContext& context, const YamlNode& node, const ValueName& name,
+                std::uint64_t& value);
+bool read_value(ReadContext& context, const YamlNode& node, const ValueName& name, bool& value);
+bool read_value(ReadContext& context, const YamlNode& node, const ValueName& name,
+                std::string& value);
+bool read_value(ReadContext& context, const YamlNode& node, const ValueName& name, DVec2& value,
+                const Range& range = any_number);
+bool read_value(ReadContext& context, const YamlNode& node, const ValueName& name, DVec3& value,
+                const Range& range = any_number);
+// A list of exactly `count` numbers.
+bool read_numbers(ReadContext& context, const YamlNode& node, const ValueName& name, double* values,
+                  std::size_t count, const Range& range = any_number);
+
+// The index of the text in `options`, or reports and returns options.size().
+std::size_t read_option(ReadContext& context, const YamlNode& node, const ValueName& name,
+                        const std::vector<std::string>& options);
+
+// Names of an enumeration's values, in order.
+template <class Enum>
+using EnumNames = std::vector<std::pair<std::string, Enum>>;
+
+class MapReader {
+ public:
+  // `kind` names the sort of map in the language ("material diffuse"), `title` this very one
+  // ("material 'white'"). Without a node every key is absent.
+  MapReader(ReadContext& context, const YamlNode* node, std::string kind, std::string title)
+      : context_(context), node_(node), kind_(std::move(kind)), title_(std::move(title)) {
+    if (recording()) (*context_.language)[kind_];
+  }
+
+  [[nodiscard]] bool recording() const { return context_.language != nullptr; }
+  [[nodiscard]] ReadContext& context() const { return context_; }
+  [[nodiscard]] const std::string& title() const { return title_; }
+  [[nodiscard]] Mark mark() const { return node_ == nullptr ? Mark{} : node_->mark; }
+  // Where a key's value is; the map if it is absent.
+  [[nodiscard]] Mark mark_of(std::string_view key) const;
+  [[nodiscard]] ValueName name_of(std::string_view key) const {
+    return "'" + std::string(key) + "' of " + title_;
+  }
+
+  // The value, or null. Registers the key.
+  const YamlNode* find(std::string_view key, bool required = false,
+                       const std::vector<std::string>& options = {});
+
+  // False, and `value` as it was, if the key is absent or its value is wrong.
+  template <class T, class... Limits>
+  bool optional(std::string_view key, T& value, const Limits&... limits) {
+    const YamlNode* node = find(key);
+    return node != nullptr && read_value(context_, *node, name_of(key), value, limits...);
+  }
+  template <class T, class... Limits>
+  bool required(std::string_view key, T& value, const Limits&... limits) {
+    const YamlNode* node = find(key, true);
+    return node != nullptr && read_value(context_, *node, name_of(key), value, limits...);
+  }
+  template <class Enum>
+  bool option(std::string_view key, Enum& value, const EnumNames<Enum>& names,
+              bool is_required = false) {
+    std::vector<std::string> options;
+    for (const auto& [name, unused] : names) options.push_back(name);
+    const YamlNode* node = find(key, is_required, options);
+    if (node == nullptr) return false;
+    const std::size_t index = read_option(context_, *node, name_of(key), options);
+    if (index < names.size()) value = names[index].second;
+    return index < names.size();
+  }
+  // Calls read(node) if the key is there; read(nullptr) to have it describe itself.
+  template <class Read>
+  void nested(std::string_view key, Read&& read, bool is_required = false) {
+    const YamlNode* node = find(key, is_required);
+    if (node != nullptr || recording()) read(node);
+  }
+
+  void error(std::string_view key, std::string message) const {
+    context_.errors.add(mark_of(key), std::move(message));
+  }
+
+  // While describing the language: the kind of map that this one is if it is also `branch`, with
+  // all keys registered so far; this kind itself is then none.
+  template <class Read>
+  void describe_branch(const std::string& branch, Read&& read) {
+    MapReader reader(context_, nullptr, kind_ + " " + branch, title_);
+    if (!known_.empty()) common_ = (*context_.language)[kind_];
+    known_.clear();
+    context_.language->erase(kind_);
+    (*context_.language)[reader.kind_] = common_;
+    read(reader);
+  }
+
+  // Which keys there may be is not known, for want of a valid type: finish() reports none.
+  void ignore_other_keys() { keys_known_ = false; }
+  // Reports the keys that nobody asked for.
+  void finish() const;
+
+ private:
+  ReadContext& context_;
+  const YamlNode* node_;
+  std::string kind_;
+  std::string title_;
+  std::vector<std::string> known_;
+  bool keys_known_ = true;
+  std::map<std::string, KeyDescription> common_;
+};
+
+// False, and an error, unless the node is a map or there is none.
+bool is_map(ReadContext& context, const YamlNode* node, const std::string& title);
+bool is_list(ReadContext& context, const YamlNode& node, const std::string& title);
+
+// read(MapReader&) over a map of one kind.
+template <class Read>
+void read_map(ReadContext& context, const YamlNode* node, const std::string& kind,
+              const std::string& title, Read&& read) {
+  if (!is_map(context, node, title)) return;
+  MapReader reader(context, node, kind, title);
+  read(reader);
+  reader.finish();
+}
+
+// read(MapReader&, index of the option) over a map whose `key` says of which kind it is; without
+// the key, it is the option `otherwise`, or an error if that is out of range.
+template <class Read>
+void read_variant(ReadContext& context, const YamlNode* node, const std::string& kind,
+                  const std::string& title, std::string_view key,
+                  const std::vector<std::string>& options, std::size_t otherwise, Read&& read) {
+  if (!is_map(context, node, title)) return;
+  const bool key_required = otherwise >= options.size();
+  if (context.language != nullptr) {
+    for (std::size_t i = 0; i < options.size(); ++i) {
+      MapReader reader(context, nullptr, kind + " " + options[i], title);
+      reader.find(key, i != otherwise, {options[i]});
+      read(reader, i);
+    }
+    return;
+  }
+  MapReader reader(context, node, kind, title);
+  const YamlNode* value = reader.find(key, key_required, options);
+  if (value == nullptr && key_required) return;
+  const std::size_t index =
+      value == nullptr ? otherwise : read_option(context, *value, reader.name_of(key), options);
+  if (index >= options.size()) return;
+  read(reader, index);
+  reader.finish();
+}
+
+}  // namespace pah

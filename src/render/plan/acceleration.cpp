@@ -1,0 +1,123 @@
+#include <algorithm>
+#include <array>
+#include <iterator>
+#include <pah/render/acceleration.hpp>
+#include <stdexcept>
+#include <string>
+
+#include "render/plan/grid_choice.hpp"
+
+namespace pah {
+namespace {
+
+constexpr std::array<AcceleratorName, 5> names{{
+    {"bvh", "one BVH over all triangles"},
+    {"local", "that, and a local BVH for each influence area"},
+    {"light",
+     "one BVH, and a grid in the space of each light that is\na point or has one direction"},
+    {"brute_force", "no structure: every ray tests every triangle"},
+    {"embree", "Embree's BVH, for comparison: the picture may differ\nin last bits"},
+}};
+constexpr std::string_view bvh = names[0].name;
+constexpr std::string_view local = names[1].name;
+constexpr std::string_view light = names[2].name;
+constexpr std::string_view brute_force = names[3].name;
+
+}  // namespace
+
+std::span<const AcceleratorName> accelerator_names() {
+  return std::span(names).first(has_embree() ? names.size() : names.size() - 1);
+}
+
+LocalArea local_area(const SceneArea& area) { return {area.area, area.bundle, area.declared}; }
+
+LocalConfig local_config(const AccelerationSettings& settings) {
+  LocalConfig config;
+  config.heuristic = settings.heuristic.value_or(config.heuristic);
+  config.split = settings.split_axis;
+  config.build.bins = static_cast<std::uint32_t>(settings.bins);
+  config.build.max_leaf = static_cast<std::uint32_t>(settings.max_leaf_triangles);
+  config.build.least_share = settings.least_share;
+  config.build.leaves = settings.leaves;
+  config.facing = settings.facing;
+  config.non_fallback_levels = settings.non_fallback_levels.value_or(config.non_fallback_levels);
+  config.top_level = settings.top_level;
+  return config;
+}
+
+namespace {
+
+void use_areas(Acceleration& made, const World& world, const AccelerationSettings& settings) {
+  const auto build = [&] {
+    std::vector<LocalArea> areas;
+    for (std::size_t i = 0; i < made.areas.size(); ++i)
+      if (made.plans[i].build) areas.push_back(local_area(made.areas[i]));
+    auto accelerator = make_local_bvhs(world.triangles(), areas, local_config(settings));
+    made.local = accelerator.get();
+    made.accelerator = std::move(accelerator);
+  };
+  build();
+  if (!settings.memory || made.accelerator->memory().total() <= *settings.memory) return;
+  // As many as there is room for, in their order.
+  const AcceleratorMemory memory = made.accelerator->memory();
+  const std::vector<LocalBvhReport> reports = made.local->reports();
+  const std::uint64_t overhead = memory.top_level / std::max<std::size_t>(reports.size(), 1);
+  std::uint64_t total = memory.global_bvh;
+  std::size_t built = 0;
+  for (AreaPlan& plan : made.plans) {
+    if (!plan.build) continue;
+    const std::uint64_t bytes = reports[built++].bytes + overhead;
+    if (total + bytes > *settings.memory) {
+      plan = {false, "it would take more memory than the scene allows"};
+    } else {
+      total += bytes;
+    }
+  }
+  build();
+}
+
+void use_grids(Acceleration& made, const World& world, const Scene& settings, bool all) {
+  auto grids = make_light_grids(world.triangles());
+  made.grid_plans = add_grids(*grids, world, settings, all);
+  made.grids = grids.get();
+  made.accelerator = std::move(grids);
+}
+
+}  // namespace
+
+Acceleration make_acceleration(const World& world, const Scene& settings, std::string_view name) {
+  Acceleration made;
+  made.areas = areas_of(world, settings.influence_areas, settings.film);
+  for (const SceneArea& area : made.areas) made.plans.push_back(plan(local_area(area)));
+  const bool any = std::ranges::any_of(made.plans, &AreaPlan::build);
+  const std::string_view why_none = no_grids(world, settings);
+  const std::string_view wanted = !name.empty()      ? name
+                                  : any              ? local
+                                  : why_none.empty() ? light
+                                                     : bvh;
+  const auto known = std::ranges::find(accelerator_names(), wanted, &AcceleratorName::name);
+  if (known == accelerator_names().end())
+    throw std::invalid_argument("unknown accelerator '" + std::string(wanted) + "'");
+  made.name = known->name;
+  if (made.name == local) {
+    use_areas(made, world, settings.acceleration);
+  } else {
+    for (AreaPlan& plan : made.plans)
+      if (plan.build) plan = {false, "the accelerator asked for knows no areas"};
+  }
+  if (made.name == light) {
+    use_grids(made, world, settings, !name.empty());
+    // With no grid it is nothing else.
+    if (name.empty() && made.grids->reports().empty()) made.name = bvh;
+  } else {
+    made.grid_plans =
+        plans_without_grids(world, why_none.empty() ? "the accelerator knows no grids" : why_none);
+  }
+  if (made.accelerator != nullptr) return made;
+  made.accelerator = made.name == bvh           ? make_global_bvh(world.triangles())
+                     : made.name == brute_force ? make_brute_force(world.triangles())
+                                                : make_embree(world.triangles());
+  return made;
+}
+
+}  // namespace pah

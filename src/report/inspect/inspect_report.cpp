@@ -1,0 +1,256 @@
+#include "report/inspect/inspect_report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <pah/accel/trees.hpp>
+
+#include "base/format_bytes.hpp"
+#include "report/json_value.hpp"
+
+namespace pah {
+namespace {
+
+double hit_share(const CostSummary& rays) {
+  return rays.rays == 0 ? 0 : static_cast<double>(rays.hits) / static_cast<double>(rays.rays);
+}
+
+std::string leaf_sizes_text(const TreeSummary& tree) {
+  constexpr std::uint64_t bar_width = 40;
+  std::uint64_t most = 1;
+  for (const std::uint64_t leaves : tree.leaf_sizes) most = std::max(most, leaves);
+  std::string text = "  triangles     leaves\n";
+  for (std::size_t size = 1; size < tree.leaf_sizes.size(); ++size) {
+    const std::uint64_t leaves = tree.leaf_sizes[size];
+    const std::string bar((leaves * bar_width + most - 1) / most, '#');
+    text += fmt::format("  {:9} {:10}{}{}\n", size, leaves, bar.empty() ? "" : "  ", bar);
+  }
+  return text;
+}
+
+std::string levels_text(const TreeSummary& tree, const std::optional<SeenOverlap>& seen) {
+  std::string text = fmt::format("  level      nodes     leaves  overlap of siblings{}\n",
+                                 seen ? "  as seen" : "");
+  for (std::size_t depth = 0; depth < tree.levels.size(); ++depth) {
+    const TreeLevel& level = tree.levels[depth];
+    text += fmt::format("  {:5} {:10} {:10}", depth, level.nodes, level.leaves);
+    if (level.nodes > level.leaves) text += fmt::format("  {:5.1f} %", 100 * level.overlap);
+    if (seen && level.nodes > level.leaves)
+      text += fmt::format("  {:18.1f} %", 100 * seen->levels[depth]);
+    text += '\n';
+  }
+  return text;
+}
+
+std::string bvh_text(const BvhReport& bvh) {
+  const TreeSummary& tree = bvh.tree;
+  std::string text = fmt::format("\nBVH {} ({})\n", bvh.name, bvh.heuristic);
+  const auto line = [&](std::string_view name, const std::string& what) {
+    text += fmt::format("  {:18}{}\n", name, what);
+  };
+  line("triangles", fmt::format("{}", tree.triangles));
+  line("nodes", fmt::format("{}, of which {} leaves; {} eight-wide", tree.nodes, tree.leaves,
+                            bvh.wide_nodes));
+  line("depth of leaves", fmt::format("at most {}, mean {:.1f}", tree.max_depth, tree.mean_depth));
+  if (tree.balance.nodes > 0)
+    line("balance",
+         fmt::format("smaller children have {:.0f} %, mean; {:.1f} % of nodes below {:.0f} %",
+                     100 * tree.balance.smaller_share, 100 * tree.balance.lopsided,
+                     100 * TreeBalance::lopsided_below));
+  line("expected cost", fmt::format("{:.2f}, by SAH {:.2f}", bvh.expected_cost, bvh.surface_cost));
+  line("overlap", fmt::format("{:.1f} % of the parent, mean", 100 * tree.overlap));
+  if (bvh.seen)
+    line("  as seen", fmt::format("{:.1f} %, by the rays of the area", 100 * bvh.seen->all));
+  if (const auto& bundle = bvh.bundle)
+    line("bundle's rays",
+         fmt::format("expected {:.2f}, in the global BVH {:.2f}", bundle->local, bundle->global));
+  if (const auto& rays = bvh.area_rays) {
+    line("measured rays",
+         fmt::format("{}, of which {} need no other BVH", rays->rays, rays->answered));
+    if (rays->rays > 0)
+      line("  cost",
+           fmt::format("mean {:.2f}, in the global BVH {:.2f}", rays->local, rays->global));
+  }
+  if (const auto& rays = bvh.camera_rays) {
+    line("camera rays",
+         fmt::format("{}, of which {:.1f} % hit", rays->rays, 100 * hit_share(*rays)));
+    line("  nodes", fmt::format("at most {}, mean {:.2f}", rays->max_nodes, rays->nodes_per_ray));
+    line("  triangles",
+         fmt::format("at most {}, mean {:.2f}", rays->max_triangles, rays->triangles_per_ray));
+  }
+  line("memory", format_bytes(bvh.memory_bytes));
+  line("build", fmt::format("{:.3g} s", bvh.build_seconds));
+  if (tree.nodes > 0) text += "\n" + leaf_sizes_text(tree) + "\n" + levels_text(tree, bvh.seen);
+  return text;
+}
+
+JsonValue bvh_json(const BvhReport& bvh) {
+  const TreeSummary& tree = bvh.tree;
+  JsonValue sizes = JsonValue::array();
+  for (std::size_t size = 1; size < tree.leaf_sizes.size(); ++size)
+    sizes.push_back({{"triangles", size}, {"leaves", tree.leaf_sizes[size]}});
+  JsonValue levels = JsonValue::array();
+  for (std::size_t depth = 0; depth < tree.levels.size(); ++depth) {
+    const TreeLevel& level = tree.levels[depth];
+    JsonValue json{{"nodes", level.nodes}, {"leaves", level.leaves}, {"overlap", level.overlap}};
+    if (bvh.seen) json.set("seen_overlap", bvh.seen->levels[depth]);
+    levels.push_back(std::move(json));
+  }
+  JsonValue json{{"name", bvh.name},
+                 {"heuristic", bvh.heuristic},
+                 {"triangles", tree.triangles},
+                 {"nodes", tree.nodes},
+                 {"leaves", tree.leaves},
+                 {"wide_nodes", bvh.wide_nodes},
+                 {"depth", {{"max", tree.max_depth}, {"mean", tree.mean_depth}}},
+                 {"balance",
+                  {{"smaller_share", tree.balance.smaller_share},
+                   {"smallest_share", tree.balance.smallest_share},
+                   {"lopsided", tree.balance.lopsided}}},
+                 {"expected_cost", bvh.expected_cost},
+                 {"surface_cost", bvh.surface_cost},
+                 {"overlap", tree.overlap},
+                 {"memory_bytes", bvh.memory_bytes},
+                 {"build_seconds", bvh.build_seconds},
+                 {"leaf_sizes", std::move(sizes)},
+                 {"levels", std::move(levels)}};
+  if (bvh.seen) json.set("seen_overlap", bvh.seen->all);
+  if (const auto& bundle = bvh.bundle)
+    json.set("bundle_cost", {{"local", bundle->local}, {"global", bundle->global}});
+  if (const auto& rays = bvh.area_rays)
+    json.set("measured_rays", {{"rays", rays->rays},
+                               {"answered", rays->answered},
+                               {"cost", rays->local},
+                               {"global_cost", rays->global}});
+  if (const auto& rays = bvh.camera_rays)
+    json.set("camera_rays", {{"rays", rays->rays},
+                             {"hits", rays->hits},
+                             {"nodes_per_ray", rays->nodes_per_ray},
+                             {"triangles_per_ray", rays->triangles_per_ray},
+                             {"max_nodes", rays->max_nodes},
+                             {"max_triangles", rays->max_triangles}});
+  return json;
+}
+
+// Names may come from scenes.
+std::string csv_name(std::string name) {
+  for (std::size_t i = 0; (i = name.find('"', i)) != std::string::npos; i += 2)
+    name.insert(i, 1, '"');
+  return name.find_first_of(",\"\r\n") == std::string::npos ? name : fmt::format("\"{}\"", name);
+}
+
+std::string grid_rows(const GridReport& grid) {
+  const std::string name = csv_name(grid.light);
+  std::string text = fmt::format("{},grid_built,,{}\n", name, grid.plan.build ? 1 : 0);
+  for (const auto& [quantity, value] : numbers_of(grid))
+    if (const std::string number = value.text(); number != "null")
+      text += fmt::format("{},grid_{},,{}\n", name, quantity, number);
+  return text;
+}
+
+}  // namespace
+
+SeenOverlap seen_overlaps(const BinaryTree& tree, const InfluenceArea& area) {
+  SeenOverlap seen;
+  std::vector<std::uint64_t> inner;
+  const auto per_node = [&](const NodeVisit& visit) {
+    if (visit.depth == seen.levels.size()) {
+      seen.levels.push_back(0);
+      inner.push_back(0);
+    }
+    if (visit.node().leaf()) return;
+    seen.levels[visit.depth] +=
+        seen_overlap(area, visit.node().box, visit.left().box, visit.right().box);
+    ++inner[visit.depth];
+  };
+  return visit_tree(tree, per_node, [&] {
+    std::uint64_t all = 0;
+    for (std::size_t depth = 0; depth < inner.size(); ++depth) {
+      all += inner[depth];
+      seen.all += seen.levels[depth];
+      if (inner[depth] > 0) seen.levels[depth] /= static_cast<double>(inner[depth]);
+    }
+    if (all > 0) seen.all /= static_cast<double>(all);
+    return seen;
+  });
+}
+
+std::string inspect_text(const InspectReport& report) {
+  std::string text = fmt::format("{}: {} triangles, {} x {} pixels\n", report.scene,
+                                 report.triangles, report.width, report.height);
+  text += fmt::format("rays of a render are answered by: {}\n", report.accelerator);
+  for (const BvhReport& bvh : report.bvhs) text += bvh_text(bvh);
+  for (const GridReport& grid : report.light_grids) text += grid_text(grid);
+  return text;
+}
+
+std::string inspect_json(const InspectReport& report) {
+  JsonValue bvhs = JsonValue::array();
+  for (const BvhReport& bvh : report.bvhs) bvhs.push_back(bvh_json(bvh));
+  const JsonValue json{{"version", report.version},
+                       {"scene", report.scene},
+                       {"width", report.width},
+                       {"height", report.height},
+                       {"triangles", report.triangles},
+                       {"accelerator", report.accelerator},
+                       {"bvhs", bvhs},
+                       {"light_grids", grids_json(report.light_grids)}};
+  return json.indented_text() + "\n";
+}
+
+std::string inspect_csv(const InspectReport& report) {
+  std::string text = "bvh,quantity,at,value\n";
+  for (const BvhReport& bvh : report.bvhs) {
+    const std::string name = csv_name(bvh.name);
+    const auto row = [&](std::string_view quantity, const std::string& at, auto value) {
+      text += fmt::format("{},{},{},{}\n", name, quantity, at, value);
+    };
+    const TreeSummary& tree = bvh.tree;
+    row("triangles", "", tree.triangles);
+    row("nodes", "", tree.nodes);
+    row("leaves", "", tree.leaves);
+    row("wide_nodes", "", bvh.wide_nodes);
+    row("max_depth", "", tree.max_depth);
+    row("mean_depth", "", tree.mean_depth);
+    row("smaller_share", "", tree.balance.smaller_share);
+    row("smallest_share", "", tree.balance.smallest_share);
+    row("lopsided", "", tree.balance.lopsided);
+    row("expected_cost", "", bvh.expected_cost);
+    row("surface_cost", "", bvh.surface_cost);
+    row("overlap", "", tree.overlap);
+    if (bvh.seen) row("seen_overlap", "", bvh.seen->all);
+    if (const auto& bundle = bvh.bundle) {
+      row("bundle_cost", "local", bundle->local);
+      row("bundle_cost", "global", bundle->global);
+    }
+    if (const auto& rays = bvh.area_rays) {
+      row("measured_rays", "", rays->rays);
+      row("measured_rays_answered", "", rays->answered);
+      row("measured_cost", "local", rays->local);
+      row("measured_cost", "global", rays->global);
+    }
+    if (const auto& rays = bvh.camera_rays) {
+      row("camera_rays", "", rays->rays);
+      row("camera_hits", "", rays->hits);
+      row("nodes_per_ray", "", rays->nodes_per_ray);
+      row("triangles_per_ray", "", rays->triangles_per_ray);
+      row("max_nodes", "", rays->max_nodes);
+      row("max_triangles", "", rays->max_triangles);
+    }
+    row("memory_bytes", "", bvh.memory_bytes);
+    row("build_seconds", "", bvh.build_seconds);
+    for (std::size_t size = 1; size < tree.leaf_sizes.size(); ++size)
+      row("leaves_of_size", std::to_string(size), tree.leaf_sizes[size]);
+    for (std::size_t depth = 0; depth < tree.levels.size(); ++depth) {
+      const TreeLevel& level = tree.levels[depth];
+      row("nodes_of_level", std::to_string(depth), level.nodes);
+      row("leaves_of_level", std::to_string(depth), level.leaves);
+      row("overlap_of_level", std::to_string(depth), level.overlap);
+      if (bvh.seen) row("seen_overlap_of_level", std::to_string(depth), bvh.seen->levels[depth]);
+    }
+  }
+  for (const GridReport& grid : report.light_grids) text += grid_rows(grid);
+  return text;
+}
+
+}  // namespace pah

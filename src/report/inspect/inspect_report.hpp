@@ -1,0 +1,63 @@
+// What `pahrender inspect` tells of a scene's BVHs and grids, for people and for tools.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <pah/bvh/analyze.hpp>
+#include <pah/influence/influence_area.hpp>
+#include <string>
+#include <vector>
+
+#include "report/grid_report.hpp"
+#include "report/inspect/area_ray_costs.hpp"
+#include "report/inspect/ray_costs.hpp"
+
+namespace pah {
+
+// How siblings overlap as an influence area's bundle sees them: pah/accel/trees.hpp.
+struct SeenOverlap {
+  std::vector<double> levels;  // means over the inner nodes of each
+  double all = 0;              // mean over all
+};
+[[nodiscard]] SeenOverlap seen_overlaps(const BinaryTree& tree, const InfluenceArea& area);
+
+// Expected, of a ray of an influence area's bundle, whether it meets any box or not.
+struct BundleCosts {
+  double local = 0;   // in the area's own BVH
+  double global = 0;  // in that of the whole scene
+};
+
+// The tree's measures and its cost are those of `heuristic`, or for a local BVH those of its
+// bundle.
+struct BvhReport {
+  std::string name;
+  std::string heuristic;
+  TreeSummary tree;                        // as it was built, with two children a node
+  std::uint64_t wide_nodes = 0;            // as it is traversed, with up to eight
+  double expected_cost = 0;                // so, of a ray that meets the root's box
+  double surface_cost = 0;                 // the same, of rays from everywhere (SAH)
+  std::optional<CostSummary> camera_rays;  // of the global BVH
+  std::optional<BundleCosts> bundle;       // of a local BVH
+  std::optional<AreaRayCosts> area_rays;   // of a local BVH
+  std::optional<SeenOverlap> seen;         // of a local BVH
+  std::uint64_t memory_bytes = 0;
+  double build_seconds = 0;
+};
+
+struct InspectReport {
+  std::string version;
+  std::string scene;  // as it was named
+  int width = 0, height = 0;
+  std::uint64_t triangles = 0;
+  std::vector<BvhReport> bvhs;
+  std::string accelerator;  // that a render has
+  std::vector<GridReport> light_grids;
+};
+
+[[nodiscard]] std::string inspect_text(const InspectReport& report);
+[[nodiscard]] std::string inspect_json(const InspectReport& report);
+// A row for every number: "bvh,quantity,at,value", where `at` is the level, the triangles of a
+// leaf, which of two, or nothing. Rows of grids have the light's name and quantities of "grid_...".
+[[nodiscard]] std::string inspect_csv(const InspectReport& report);
+
+}  // namespace pah
