@@ -1,5 +1,5 @@
 // What is said while a render goes on.
-#include "cli/render/progress.hpp"
+#include "cli/terminal/progress.hpp"
 
 #include "catch.hpp"
 #include "program.hpp"

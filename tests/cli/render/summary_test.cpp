@@ -1,5 +1,5 @@
 // The last line of a render.
-#include "cli/render/summary.hpp"
+#include "cli/terminal/summary.hpp"
 
 #include <algorithm>
 #include <vector>

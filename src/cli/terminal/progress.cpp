@@ -1,4 +1,4 @@
-#include "cli/render/progress.hpp"
+#include "cli/terminal/progress.hpp"
 
 #include <fmt/format.h>
 #include <sys/ioctl.h>

@@ -1,4 +1,4 @@
-#include "cli/render/summary.hpp"
+#include "cli/terminal/summary.hpp"
 
 #include <fmt/format.h>
 

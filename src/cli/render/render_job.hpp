@@ -1,0 +1,78 @@
+// One render, in four stages: load, build, trace, save.
+#pragma once
+
+#include <tbb/global_control.h>
+
+#include <filesystem>
+#include <future>
+#include <optional>
+#include <pah/load/load_scene.hpp>
+#include <pah/render/acceleration.hpp>
+#include <pah/render/render.hpp>
+#include <pah/scene/world.hpp>
+
+#include "base/stopwatch.hpp"
+#include "cli/render/checkpoint.hpp"
+#include "cli/render/early_pictures.hpp"
+#include "cli/render/render_command.hpp"
+#include "cli/terminal/interrupt.hpp"
+#include "cli/terminal/warnings.hpp"
+#include "cli/tev/stream.hpp"
+#include "report/stats.hpp"
+
+namespace pah::cli {
+
+// The stages are called in the order of their declaration. One that returns an exit code ends the
+// render with it. Each throws as run_render does.
+class RenderJob {
+ public:
+  // The arguments and hooks must outlive the job.
+  RenderJob(const RenderArguments& arguments, const RenderHooks& hooks);
+
+  [[nodiscard]] std::optional<ExitCode> load();
+  [[nodiscard]] std::optional<ExitCode> build();
+  void trace();
+  [[nodiscard]] ExitCode save();
+
+ private:
+  // What the options say replaces what the scene says.
+  void apply_arguments();
+  void open_onlookers();
+  [[nodiscard]] RenderOptions render_options();
+  [[nodiscard]] bool picture_library_loaded() const;
+  void warn_of_viewer();
+  // After an interrupt, whether there is less to save than the output holds already.
+  [[nodiscard]] bool nothing_to_save() const;
+  void write_output();
+  void write_stats();
+  [[nodiscard]] ExitCode ending(bool interrupted = false) const;
+
+  const RenderArguments& arguments_;
+  const RenderHooks& hooks_;
+  Stopwatch total_;
+  std::filesystem::path output_;
+  int threads_;
+  tbb::global_control parallelism_;
+  Warnings warnings_;
+  RenderReport report_;
+
+  // Of load().
+  Scene scene_;
+  FilmOrigin origin_;
+  std::optional<Checkpoint> checkpoint_;
+  StartedFilm started_;
+  World world_;
+
+  // Of build(). The picture library takes half a second to load, and is needed last.
+  std::shared_future<void> picture_library_;
+  Acceleration acceleration_;
+
+  // Of trace(): those who look at the picture while it is rendered, and the result.
+  std::optional<EarlyPictures> early_;
+  std::optional<TevStream> tev_;
+  // From the first samples on: before, there is nothing that an interrupt should wait for.
+  std::optional<SavingOnInterrupt> saving_;
+  RenderResult result_;
+};
+
+}  // namespace pah::cli
