@@ -18,8 +18,8 @@
 #include "cli/terminal/warnings.hpp"
 #include "report/acceleration_warnings.hpp"
 #include "report/inspect/inspect_report.hpp"
-#include "report/inspect/pictures/area_gltf.hpp"
-#include "report/inspect/pictures/box_gltf.hpp"
+#include "report/inspect/pictures/area_lines.hpp"
+#include "report/inspect/pictures/box_lines.hpp"
 #include "report/inspect/pictures/false_color.hpp"
 #include "report/inspect/pictures/overlay.hpp"
 #include "report/inspect/pictures/structure_map.hpp"
@@ -29,27 +29,20 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Before the work rather than after it.
+// Fails before the work rather than after it.
 void check_outputs(const InspectArguments& arguments) {
   const auto check_extension = [](const fs::path& file, std::string_view option,
                                   std::string_view extension) {
     if (!file.empty() && file.extension() != extension)
-      throw UsageError(fmt::format("{} writes {} files: {} is none by its extension", option,
+      throw UsageError(fmt::format("{} writes {} files: {} its extension is another", option,
                                    extension, file.string()));
   };
   check_extension(arguments.heat_map, "--heatmap", ".png");
   check_extension(arguments.structures, "--structures", ".png");
   check_extension(arguments.overlay, "--overlay", ".png");
-  check_extension(arguments.boxes, "--boxes", ".gltf");
-  check_extension(arguments.areas, "--areas", ".gltf");
   for (const fs::path* file :
-       {&arguments.json, &arguments.csv, &arguments.heat_map, &arguments.structures,
-        &arguments.overlay, &arguments.boxes, &arguments.areas})
+       {&arguments.json, &arguments.heat_map, &arguments.structures, &arguments.overlay})
     if (!file->empty()) check_can_create(*file);
-}
-
-void apply(const InspectArguments& arguments, FilmSettings& film) {
-  resize(film, arguments.width, arguments.height);
 }
 
 struct TimedBvh {
@@ -145,14 +138,6 @@ void write_overlay(const InspectArguments& arguments, const World& world, const 
              legend_text(area_legend(areas)));
 }
 
-void write_areas(const InspectArguments& arguments, const World& world,
-                 const std::vector<SceneArea>& areas, const AreaOctree& octree) {
-  write_text_file(arguments.areas, areas_gltf(areas, octree, arguments.levels, world.origin));
-  fmt::print("\ninfluence areas {}: {}\n{}", arguments.areas.string(),
-             areas.empty() ? "there are none" : std::to_string(areas.size()),
-             legend_text(area_legend(areas)));
-}
-
 }  // namespace
 
 ExitCode run_inspect(const InspectArguments& arguments) {
@@ -162,7 +147,7 @@ ExitCode run_inspect(const InspectArguments& arguments) {
   Warnings warnings(false, false);
   warnings.add(loaded.warnings);
   Scene& scene = loaded.scene;
-  apply(arguments, scene.film);
+  resize(scene.film, arguments.width, arguments.height);
   const World world = make_world(scene);
   warnings.add(world.warnings);
 
@@ -199,12 +184,6 @@ ExitCode run_inspect(const InspectArguments& arguments) {
 
   fmt::print("{}", inspect_text(report));
   if (!arguments.json.empty()) write_text_file(arguments.json, inspect_json(report));
-  if (!arguments.csv.empty()) write_text_file(arguments.csv, inspect_csv(report));
-  if (!arguments.boxes.empty())
-    write_text_file(arguments.boxes, boxes_gltf(global.built.tree, arguments.levels, world.origin));
-  if (!arguments.areas.empty())
-    write_areas(arguments, world, acceleration.areas,
-                area_octree(areas, scene.acceleration.top_level));
   if (!arguments.heat_map.empty()) {
     const CostSummary most = summarize(costs);
     write_image(arguments.heat_map, {{"", {"R", "G", "B"}, heat_map(costs)}});

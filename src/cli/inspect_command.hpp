@@ -16,14 +16,12 @@ struct InspectArguments {
   std::filesystem::path scene;
   std::vector<std::string> overrides;  // key.path=value
   std::optional<int> width, height;
-  std::filesystem::path json, csv;
+  std::filesystem::path json;
   std::filesystem::path heat_map;    // .png
   std::filesystem::path structures;  // .png
   std::filesystem::path overlay;     // .png
-  std::filesystem::path boxes;       // .gltf
-  std::filesystem::path areas;       // .gltf
-  std::uint32_t levels = 8;          // of boxes and of the octree
-  bool all_areas = false;            // also those that a render does not build
+  std::uint32_t levels = 8;          // of boxes
+  bool all_areas = false;            // also areas that a render does not build
 };
 
 // Throws UsageError, SceneError or FileError.

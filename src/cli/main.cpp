@@ -203,8 +203,6 @@ CLI::App* add_inspect(CLI::App& app, InspectArguments& arguments) {
   inspect->add_flag("--all-areas", arguments.all_areas,
                     "Also areas that are derived and that a render does\nnot build");
   inspect->add_option("--json", arguments.json, "Write the report as JSON")->type_name("FILE");
-  inspect->add_option("--csv", arguments.csv, "Write the report as rows of numbers")
-      ->type_name("FILE");
   inspect
       ->add_option("--heatmap", arguments.heat_map,
                    "Write a picture of what each pixel's ray costs:\n"
@@ -219,16 +217,7 @@ CLI::App* add_inspect(CLI::App& app, InspectArguments& arguments) {
                    "Write a picture of the scene with the influence areas\n"
                    "that are built and boxes drawn over it")
       ->type_name("FILE.png");
-  inspect
-      ->add_option("--boxes", arguments.boxes,
-                   "Write the boxes of the topmost levels as lines, a\ncolor for each level")
-      ->type_name("FILE.gltf");
-  inspect
-      ->add_option("--areas", arguments.areas,
-                   "Write the influence areas and an octree over those\n"
-                   "that are built, as lines")
-      ->type_name("FILE.gltf");
-  inspect->add_option("--levels", arguments.levels, "How many levels of boxes and cells")
+  inspect->add_option("--levels", arguments.levels, "How many levels of boxes --overlay draws")
       ->capture_default_str()
       ->check(whole_number(1, 80))
       ->type_name("N");
@@ -281,6 +270,9 @@ std::string usage_hint(const CLI::App& app, int argc, char** argv) {
   for (int i = 1; i < argc; ++i) {
     const std::string_view word =
         std::string_view(argv[i]).substr(0, std::string_view(argv[i]).find('='));
+    if (word == "--csv") return "; inspect writes its report with --json";
+    if (word == "--boxes" || word == "--areas")
+      return "; inspect draws boxes and influence areas with --overlay";
     if (word == "render") return "; there is no command 'render': pahrender SCENE -o OUT";
     const bool known = std::find(options.begin(), options.end(), word) != options.end();
     if (word.starts_with("--") && !known) return suggestion(word, options);

@@ -40,13 +40,18 @@ std::vector<GridReport> report_grids(const Acceleration& acceleration, const Wor
   return reports;
 }
 
-std::vector<std::pair<std::string_view, JsonValue>> numbers_of(const GridReport& grid) {
+namespace {
+
+JsonValue grid_json(const GridReport& grid) {
   const GridPlan& plan = grid.plan;
   const std::optional<GridPilot> traced = traced_pilot(plan);
   const auto if_predicted = [&](double value) {
     return traced ? std::optional(value) : std::nullopt;
   };
-  return {{"expected_rays", part_of(plan.pilot, &GridPilot::expected_rays)},
+  return {{"light", grid.light},
+          {"built", plan.build},
+          {"reason", plan.reason},
+          {"expected_rays", part_of(plan.pilot, &GridPilot::expected_rays)},
           {"pilot_rays", part_of(plan.pilot, &GridPilot::rays)},
           {"occluded_share", part_of(traced, &GridPilot::occluded_share)},
           {"bvh_seconds_per_ray", part_of(traced, &GridPilot::seconds)},
@@ -63,18 +68,6 @@ std::vector<std::pair<std::string_view, JsonValue>> numbers_of(const GridReport&
           {"entries", part_of(grid.lists, &GridLists::entries)},
           {"longest_list", part_of(grid.lists, &GridLists::longest_list)}};
 }
-
-JsonValue grids_json(const std::vector<GridReport>& grids) {
-  JsonValue json = JsonValue::array();
-  for (const GridReport& grid : grids) {
-    JsonValue one{{"light", grid.light}, {"built", grid.plan.build}, {"reason", grid.plan.reason}};
-    for (const auto& [name, value] : numbers_of(grid)) one.set(name, value);
-    json.push_back(one);
-  }
-  return json;
-}
-
-namespace {
 
 std::string line(std::string_view name, const std::string& what) {
   return fmt::format("  {:18}{}\n", name, what);
@@ -113,6 +106,12 @@ std::string lists_text(const GridLists& lists) {
 }
 
 }  // namespace
+
+JsonValue grids_json(const std::vector<GridReport>& grids) {
+  JsonValue json = JsonValue::array();
+  for (const GridReport& grid : grids) json.push_back(grid_json(grid));
+  return json;
+}
 
 std::string grid_text(const GridReport& grid) {
   const GridPlan& plan = grid.plan;

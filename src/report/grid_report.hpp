@@ -26,11 +26,7 @@ struct GridReport {
 [[nodiscard]] std::vector<GridReport> report_grids(const Acceleration& acceleration,
                                                    const World& world);
 
-// All numbers of a grid by name; null stands for what is not known.
-[[nodiscard]] std::vector<std::pair<std::string_view, JsonValue>> numbers_of(
-    const GridReport& grid);
-
-// Those, and what they are of; null stands for what is not known.
+// One object a grid; a value that is not known is null.
 [[nodiscard]] JsonValue grids_json(const std::vector<GridReport>& grids);
 // Some lines of what is known.
 [[nodiscard]] std::string grid_text(const GridReport& grid);

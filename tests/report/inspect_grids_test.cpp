@@ -48,13 +48,3 @@ TEST_CASE("the text of a grid that was not built says why, and what is known") {
   CHECK(grid_text(grid) ==
         "\nGrid of light sun: not built\n  reason            no ray of the pilot goes to it\n");
 }
-
-TEST_CASE("the rows of a grid are of what is known") {
-  InspectReport report;
-  report.light_grids = {built_grid()};
-  const std::string csv = inspect_csv(report);
-  CHECK_THAT(csv, contains_text("\nbulb,grid_built,,1\n"));
-  CHECK_THAT(csv, contains_text("\nbulb,grid_bytes,,900\n"));
-  CHECK_THAT(csv, contains_text("\nbulb,grid_measured_seconds_per_ray,,5e-07\n"));
-  CHECK_THAT(csv, !contains_text("cells"));
-}

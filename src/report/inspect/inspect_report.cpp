@@ -132,22 +132,6 @@ JsonValue bvh_json(const BvhReport& bvh) {
   return json;
 }
 
-// Names may come from scenes.
-std::string csv_name(std::string name) {
-  for (std::size_t i = 0; (i = name.find('"', i)) != std::string::npos; i += 2)
-    name.insert(i, 1, '"');
-  return name.find_first_of(",\"\r\n") == std::string::npos ? name : fmt::format("\"{}\"", name);
-}
-
-std::string grid_rows(const GridReport& grid) {
-  const std::string name = csv_name(grid.light);
-  std::string text = fmt::format("{},grid_built,,{}\n", name, grid.plan.build ? 1 : 0);
-  for (const auto& [quantity, value] : numbers_of(grid))
-    if (const std::string number = value.text(); number != "null")
-      text += fmt::format("{},grid_{},,{}\n", name, quantity, number);
-  return text;
-}
-
 }  // namespace
 
 SeenOverlap seen_overlaps(const BinaryTree& tree, const InfluenceArea& area) {
@@ -196,61 +180,6 @@ std::string inspect_json(const InspectReport& report) {
                        {"bvhs", bvhs},
                        {"light_grids", grids_json(report.light_grids)}};
   return json.indented_text() + "\n";
-}
-
-std::string inspect_csv(const InspectReport& report) {
-  std::string text = "bvh,quantity,at,value\n";
-  for (const BvhReport& bvh : report.bvhs) {
-    const std::string name = csv_name(bvh.name);
-    const auto row = [&](std::string_view quantity, const std::string& at, auto value) {
-      text += fmt::format("{},{},{},{}\n", name, quantity, at, value);
-    };
-    const TreeSummary& tree = bvh.tree;
-    row("triangles", "", tree.triangles);
-    row("nodes", "", tree.nodes);
-    row("leaves", "", tree.leaves);
-    row("wide_nodes", "", bvh.wide_nodes);
-    row("max_depth", "", tree.max_depth);
-    row("mean_depth", "", tree.mean_depth);
-    row("smaller_share", "", tree.balance.smaller_share);
-    row("smallest_share", "", tree.balance.smallest_share);
-    row("lopsided", "", tree.balance.lopsided);
-    row("expected_cost", "", bvh.expected_cost);
-    row("surface_cost", "", bvh.surface_cost);
-    row("overlap", "", tree.overlap);
-    if (bvh.seen) row("seen_overlap", "", bvh.seen->all);
-    if (const auto& bundle = bvh.bundle) {
-      row("bundle_cost", "local", bundle->local);
-      row("bundle_cost", "global", bundle->global);
-    }
-    if (const auto& rays = bvh.area_rays) {
-      row("measured_rays", "", rays->rays);
-      row("measured_rays_answered", "", rays->answered);
-      row("measured_cost", "local", rays->local);
-      row("measured_cost", "global", rays->global);
-    }
-    if (const auto& rays = bvh.camera_rays) {
-      row("camera_rays", "", rays->rays);
-      row("camera_hits", "", rays->hits);
-      row("nodes_per_ray", "", rays->nodes_per_ray);
-      row("triangles_per_ray", "", rays->triangles_per_ray);
-      row("max_nodes", "", rays->max_nodes);
-      row("max_triangles", "", rays->max_triangles);
-    }
-    row("memory_bytes", "", bvh.memory_bytes);
-    row("build_seconds", "", bvh.build_seconds);
-    for (std::size_t size = 1; size < tree.leaf_sizes.size(); ++size)
-      row("leaves_of_size", std::to_string(size), tree.leaf_sizes[size]);
-    for (std::size_t depth = 0; depth < tree.levels.size(); ++depth) {
-      const TreeLevel& level = tree.levels[depth];
-      row("nodes_of_level", std::to_string(depth), level.nodes);
-      row("leaves_of_level", std::to_string(depth), level.leaves);
-      row("overlap_of_level", std::to_string(depth), level.overlap);
-      if (bvh.seen) row("seen_overlap_of_level", std::to_string(depth), bvh.seen->levels[depth]);
-    }
-  }
-  for (const GridReport& grid : report.light_grids) text += grid_rows(grid);
-  return text;
 }
 
 }  // namespace pah

@@ -56,8 +56,4 @@ struct InspectReport {
 
 [[nodiscard]] std::string inspect_text(const InspectReport& report);
 [[nodiscard]] std::string inspect_json(const InspectReport& report);
-// A row for every number: "bvh,quantity,at,value", where `at` is the level, the triangles of a
-// leaf, which of two, or nothing. Rows of grids have the light's name and quantities of "grid_...".
-[[nodiscard]] std::string inspect_csv(const InspectReport& report);
-
 }  // namespace pah
