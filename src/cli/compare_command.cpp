@@ -5,7 +5,7 @@
 #include <pah/image/compare.hpp>
 #include <pah/image/image_file.hpp>
 
-#include "report/json_value.hpp"
+#include "report/json.hpp"
 
 namespace pah::cli {
 
@@ -15,8 +15,7 @@ ExitCode run_compare(const CompareArguments& arguments) {
   if (arguments.json)
     fmt::print(
         "{}\n",
-        JsonValue{{"mse", difference.mse}, {"relmse", difference.relmse}, {"max", difference.max}}
-            .indented_text());
+        text_of({{"mse", difference.mse}, {"relmse", difference.relmse}, {"max", difference.max}}));
   else
     fmt::print("mse    {:.6g}\nrelmse {:.6g}\nmax    {:.6g}\n", difference.mse, difference.relmse,
                difference.max);

@@ -9,10 +9,10 @@
 namespace pah {
 namespace {
 
-// Only if there is a value to take it of.
+// A member of a value; null where there is no value.
 template <typename Whole, typename Part>
-std::optional<Part> part_of(const std::optional<Whole>& whole, Part Whole::*part) {
-  return whole ? std::optional((*whole).*part) : std::nullopt;
+OrderedJson part_of(const std::optional<Whole>& whole, Part Whole::*part) {
+  return whole ? OrderedJson((*whole).*part) : OrderedJson();
 }
 
 // Nothing where no ray was traced.
@@ -42,11 +42,11 @@ std::vector<GridReport> report_grids(const Acceleration& acceleration, const Wor
 
 namespace {
 
-JsonValue grid_json(const GridReport& grid) {
+OrderedJson grid_json(const GridReport& grid) {
   const GridPlan& plan = grid.plan;
   const std::optional<GridPilot> traced = traced_pilot(plan);
   const auto if_predicted = [&](double value) {
-    return traced ? std::optional(value) : std::nullopt;
+    return traced ? OrderedJson(value) : OrderedJson();
   };
   return {{"light", grid.light},
           {"built", plan.build},
@@ -57,12 +57,12 @@ JsonValue grid_json(const GridReport& grid) {
           {"bvh_seconds_per_ray", part_of(traced, &GridPilot::seconds)},
           {"bvh_cost_per_ray", part_of(traced, &GridPilot::cost)},
           {"predicted_seconds_per_ray", if_predicted(plan.predicted_seconds)},
-          {"measured_seconds_per_ray", plan.measured_seconds},
+          {"measured_seconds_per_ray", json_or_null(plan.measured_seconds)},
           {"predicted_build_seconds", if_predicted(plan.predicted_build_seconds)},
-          {"build_seconds", grid.build_seconds},
+          {"build_seconds", json_or_null(grid.build_seconds)},
           {"predicted_saved_seconds", if_predicted(plan.predicted_saving)},
-          {"saved_seconds", plan.measured_saving},
-          {"bytes", grid.bytes},
+          {"saved_seconds", json_or_null(plan.measured_saving)},
+          {"bytes", json_or_null(grid.bytes)},
           {"cells", part_of(grid.lists, &GridLists::cells)},
           {"empty_cells", part_of(grid.lists, &GridLists::empty_cells)},
           {"entries", part_of(grid.lists, &GridLists::entries)},
@@ -107,8 +107,8 @@ std::string lists_text(const GridLists& lists) {
 
 }  // namespace
 
-JsonValue grids_json(const std::vector<GridReport>& grids) {
-  JsonValue json = JsonValue::array();
+OrderedJson grids_json(const std::vector<GridReport>& grids) {
+  OrderedJson json = OrderedJson::array();
   for (const GridReport& grid : grids) json.push_back(grid_json(grid));
   return json;
 }

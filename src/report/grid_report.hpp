@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "report/json_value.hpp"
+#include "report/json.hpp"
 
 namespace pah {
 
@@ -27,7 +27,7 @@ struct GridReport {
                                                    const World& world);
 
 // One object a grid; a value that is not known is null.
-[[nodiscard]] JsonValue grids_json(const std::vector<GridReport>& grids);
+[[nodiscard]] OrderedJson grids_json(const std::vector<GridReport>& grids);
 // Some lines of what is known.
 [[nodiscard]] std::string grid_text(const GridReport& grid);
 

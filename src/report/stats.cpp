@@ -2,20 +2,20 @@
 
 #include <sys/resource.h>
 
-#include "report/json_value.hpp"
+#include "report/json.hpp"
 
 namespace pah {
 namespace {
 
 template <typename Value>
-JsonValue by_ray_kind(const Value& value) {
-  JsonValue json = JsonValue::object();
+OrderedJson by_ray_kind(const Value& value) {
+  OrderedJson json = OrderedJson::object();
   for (std::size_t kind = 0; kind < ray_kind_names.size(); ++kind)
-    json.set(ray_kind_names[kind], value(kind));
+    json[std::string(ray_kind_names[kind])] = value(kind);
   return json;
 }
 
-JsonValue traversal_json(const RenderCounts& counts) {
+OrderedJson traversal_json(const RenderCounts& counts) {
   const auto per_ray = [&](std::uint64_t TraversalCounts::*member) {
     return by_ray_kind([&, member](std::size_t kind) {
       const auto rays = counts.rays[kind];
@@ -28,8 +28,8 @@ JsonValue traversal_json(const RenderCounts& counts) {
           {"triangles_per_ray", per_ray(&TraversalCounts::triangles)}};
 }
 
-JsonValue areas_json(const std::vector<AreaReport>& areas) {
-  JsonValue json = JsonValue::array();
+OrderedJson areas_json(const std::vector<AreaReport>& areas) {
+  OrderedJson json = OrderedJson::array();
   for (const AreaReport& area : areas)
     json.push_back({{"name", area.name},
                     {"type", area.type},
@@ -37,13 +37,13 @@ JsonValue areas_json(const std::vector<AreaReport>& areas) {
                     {"triangles", area.triangles},
                     {"built", area.built},
                     {"reason", area.reason},
-                    {"predicted_cost", area.predicted_cost},
-                    {"measured_cost", area.measured_cost},
-                    {"global_cost", area.global_cost},
-                    {"measured_global_cost", area.measured_global_cost},
-                    {"rays", area.rays},
-                    {"asked_rays", area.asked_rays},
-                    {"sampled_rays", area.sampled_rays}});
+                    {"predicted_cost", json_or_null(area.predicted_cost)},
+                    {"measured_cost", json_or_null(area.measured_cost)},
+                    {"global_cost", json_or_null(area.global_cost)},
+                    {"measured_global_cost", json_or_null(area.measured_global_cost)},
+                    {"rays", json_or_null(area.rays)},
+                    {"asked_rays", json_or_null(area.asked_rays)},
+                    {"sampled_rays", json_or_null(area.sampled_rays)}});
   return json;
 }
 
@@ -61,7 +61,7 @@ std::uint64_t peak_memory_bytes() {
 
 std::string stats_json(const RenderReport& report) {
   const AcceleratorMemory& structures = report.accelerator_bytes;
-  const JsonValue json{
+  const OrderedJson json{
       {"version", report.version},
       {"scene", report.scene},
       {"width", report.width},
@@ -92,11 +92,11 @@ std::string stats_json(const RenderReport& report) {
       {"error",
        {{"mse", report.error.mse},
         {"relmse", report.error.relmse},
-        {"confidence95", JsonValue::array({report.error.low, report.error.high})}}},
+        {"confidence95", OrderedJson::array({report.error.low, report.error.high})}}},
       {"nan_samples", report.counts.nan_samples},
       {"warnings", report.warnings},
   };
-  return json.indented_text() + "\n";
+  return text_of(json) + "\n";
 }
 
 }  // namespace pah

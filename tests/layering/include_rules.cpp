@@ -85,7 +85,7 @@ const std::vector<ThirdParty> third_parties{
     {"yaml-cpp/", {"src/load/yaml/"}},
     {"fmt/",
      {"src/base/", "src/image/", "src/render/film/", "src/load/", "src/report/", "src/cli/"}},
-    {"nlohmann/", {"src/load/mesh/gltf/", "src/report/json_value"}},
+    {"nlohmann/", {"src/load/mesh/gltf/", "src/report/"}},
     {"CLI/", {"src/cli/"}},
     {"embree3/", {"src/accel/"}},
     {"embree4/", {"src/accel/"}},

@@ -70,7 +70,7 @@ TEST_CASE("allowed includes pass") {
        "#include \"load/yaml/tree.hpp\"\n#include \"load/scene/sections/reading.hpp\"\n"
        "#include \"image/texture/store.hpp\"\n"},
       {"src/report/study/study.cpp",
-       "#include \"report/json_value.hpp\"\n#include \"base/output_file.hpp\"\n"},
+       "#include \"report/json.hpp\"\n#include \"base/output_file.hpp\"\n"},
       {"src/cli/main.cpp",
        "#include <CLI/CLI.hpp>\n#include <unistd.h>\n#include \"report/stats.hpp\"\n"
        "#include \"cli/render/frames.hpp\"\n"},

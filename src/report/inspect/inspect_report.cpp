@@ -6,7 +6,7 @@
 #include <pah/accel/trees.hpp>
 
 #include "base/format_bytes.hpp"
-#include "report/json_value.hpp"
+#include "report/json.hpp"
 
 namespace pah {
 namespace {
@@ -84,51 +84,51 @@ std::string bvh_text(const BvhReport& bvh) {
   return text;
 }
 
-JsonValue bvh_json(const BvhReport& bvh) {
+OrderedJson bvh_json(const BvhReport& bvh) {
   const TreeSummary& tree = bvh.tree;
-  JsonValue sizes = JsonValue::array();
+  OrderedJson sizes = OrderedJson::array();
   for (std::size_t size = 1; size < tree.leaf_sizes.size(); ++size)
     sizes.push_back({{"triangles", size}, {"leaves", tree.leaf_sizes[size]}});
-  JsonValue levels = JsonValue::array();
+  OrderedJson levels = OrderedJson::array();
   for (std::size_t depth = 0; depth < tree.levels.size(); ++depth) {
     const TreeLevel& level = tree.levels[depth];
-    JsonValue json{{"nodes", level.nodes}, {"leaves", level.leaves}, {"overlap", level.overlap}};
-    if (bvh.seen) json.set("seen_overlap", bvh.seen->levels[depth]);
+    OrderedJson json{{"nodes", level.nodes}, {"leaves", level.leaves}, {"overlap", level.overlap}};
+    if (bvh.seen) json["seen_overlap"] = bvh.seen->levels[depth];
     levels.push_back(std::move(json));
   }
-  JsonValue json{{"name", bvh.name},
-                 {"heuristic", bvh.heuristic},
-                 {"triangles", tree.triangles},
-                 {"nodes", tree.nodes},
-                 {"leaves", tree.leaves},
-                 {"wide_nodes", bvh.wide_nodes},
-                 {"depth", {{"max", tree.max_depth}, {"mean", tree.mean_depth}}},
-                 {"balance",
-                  {{"smaller_share", tree.balance.smaller_share},
-                   {"smallest_share", tree.balance.smallest_share},
-                   {"lopsided", tree.balance.lopsided}}},
-                 {"expected_cost", bvh.expected_cost},
-                 {"surface_cost", bvh.surface_cost},
-                 {"overlap", tree.overlap},
-                 {"memory_bytes", bvh.memory_bytes},
-                 {"build_seconds", bvh.build_seconds},
-                 {"leaf_sizes", std::move(sizes)},
-                 {"levels", std::move(levels)}};
-  if (bvh.seen) json.set("seen_overlap", bvh.seen->all);
+  OrderedJson json{{"name", bvh.name},
+                   {"heuristic", bvh.heuristic},
+                   {"triangles", tree.triangles},
+                   {"nodes", tree.nodes},
+                   {"leaves", tree.leaves},
+                   {"wide_nodes", bvh.wide_nodes},
+                   {"depth", {{"max", tree.max_depth}, {"mean", tree.mean_depth}}},
+                   {"balance",
+                    {{"smaller_share", tree.balance.smaller_share},
+                     {"smallest_share", tree.balance.smallest_share},
+                     {"lopsided", tree.balance.lopsided}}},
+                   {"expected_cost", bvh.expected_cost},
+                   {"surface_cost", bvh.surface_cost},
+                   {"overlap", tree.overlap},
+                   {"memory_bytes", bvh.memory_bytes},
+                   {"build_seconds", bvh.build_seconds},
+                   {"leaf_sizes", std::move(sizes)},
+                   {"levels", std::move(levels)}};
+  if (bvh.seen) json["seen_overlap"] = bvh.seen->all;
   if (const auto& bundle = bvh.bundle)
-    json.set("bundle_cost", {{"local", bundle->local}, {"global", bundle->global}});
+    json["bundle_cost"] = {{"local", bundle->local}, {"global", bundle->global}};
   if (const auto& rays = bvh.area_rays)
-    json.set("measured_rays", {{"rays", rays->rays},
-                               {"answered", rays->answered},
-                               {"cost", rays->local},
-                               {"global_cost", rays->global}});
+    json["measured_rays"] = {{"rays", rays->rays},
+                             {"answered", rays->answered},
+                             {"cost", rays->local},
+                             {"global_cost", rays->global}};
   if (const auto& rays = bvh.camera_rays)
-    json.set("camera_rays", {{"rays", rays->rays},
-                             {"hits", rays->hits},
-                             {"nodes_per_ray", rays->nodes_per_ray},
-                             {"triangles_per_ray", rays->triangles_per_ray},
-                             {"max_nodes", rays->max_nodes},
-                             {"max_triangles", rays->max_triangles}});
+    json["camera_rays"] = {{"rays", rays->rays},
+                           {"hits", rays->hits},
+                           {"nodes_per_ray", rays->nodes_per_ray},
+                           {"triangles_per_ray", rays->triangles_per_ray},
+                           {"max_nodes", rays->max_nodes},
+                           {"max_triangles", rays->max_triangles}};
   return json;
 }
 
@@ -169,17 +169,17 @@ std::string inspect_text(const InspectReport& report) {
 }
 
 std::string inspect_json(const InspectReport& report) {
-  JsonValue bvhs = JsonValue::array();
+  OrderedJson bvhs = OrderedJson::array();
   for (const BvhReport& bvh : report.bvhs) bvhs.push_back(bvh_json(bvh));
-  const JsonValue json{{"version", report.version},
-                       {"scene", report.scene},
-                       {"width", report.width},
-                       {"height", report.height},
-                       {"triangles", report.triangles},
-                       {"accelerator", report.accelerator},
-                       {"bvhs", bvhs},
-                       {"light_grids", grids_json(report.light_grids)}};
-  return json.indented_text() + "\n";
+  const OrderedJson json{{"version", report.version},
+                         {"scene", report.scene},
+                         {"width", report.width},
+                         {"height", report.height},
+                         {"triangles", report.triangles},
+                         {"accelerator", report.accelerator},
+                         {"bvhs", bvhs},
+                         {"light_grids", grids_json(report.light_grids)}};
+  return text_of(json) + "\n";
 }
 
 }  // namespace pah
