@@ -6,7 +6,7 @@
 #include "program.hpp"
 #include "support/temporary_folder.hpp"
 
-using namespace pah::testing;
+using namespace pah::test;
 using pah::CurrentTemporaryFolder;
 
 TEST_CASE("inspect reports, and writes what it is asked for") {

@@ -4,7 +4,7 @@
 
 #include <stdexcept>
 
-namespace pah::testing {
+namespace pah::test {
 
 std::vector<float> layer_pixels(const std::string& file) {
   const auto input = OIIO::ImageInput::open(file);
@@ -16,4 +16,4 @@ std::vector<float> layer_pixels(const std::string& file) {
   return pixels;
 }
 
-}  // namespace pah::testing
+}  // namespace pah::test

@@ -3,9 +3,9 @@
 #include <string>
 #include <vector>
 
-namespace pah::testing {
+namespace pah::test {
 
 // Of all channels of an EXR file, those of layers included.
 [[nodiscard]] std::vector<float> layer_pixels(const std::string& file);
 
-}  // namespace pah::testing
+}  // namespace pah::test

@@ -17,7 +17,7 @@
 
 #include "support/paths.hpp"
 
-namespace pah::testing {
+namespace pah::test {
 
 namespace fs = std::filesystem;
 
@@ -139,4 +139,4 @@ Outcome run(const std::vector<std::string>& arguments, ErrorStream stream) {
   return Program(arguments, stream).wait();
 }
 
-}  // namespace pah::testing
+}  // namespace pah::test

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace pah::testing {
+namespace pah::test {
 
 // Sorted names in the current folder, without those of captured streams.
 [[nodiscard]] std::vector<std::string> files();
@@ -51,4 +51,4 @@ class Program {
 // A box on a floor under a lamp: every kind of ray, little work.
 extern const char* const small_scene;
 
-}  // namespace pah::testing
+}  // namespace pah::test

@@ -6,7 +6,7 @@
 #include "support/paths.hpp"
 #include "support/temporary_folder.hpp"
 
-using namespace pah::testing;
+using namespace pah::test;
 using pah::CurrentTemporaryFolder;
 
 namespace {

@@ -9,7 +9,7 @@
 #include "support/picture_bytes.hpp"
 #include "support/temporary_folder.hpp"
 
-using namespace pah::testing;
+using namespace pah::test;
 using pah::CurrentTemporaryFolder;
 using Words = std::vector<std::string>;
 

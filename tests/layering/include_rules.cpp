@@ -6,7 +6,7 @@
 #include <optional>
 #include <string_view>
 
-namespace pah::testing {
+namespace pah::test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -227,4 +227,4 @@ std::vector<std::string> broken_include_rules(const fs::path& root) {
   return faults;
 }
 
-}  // namespace pah::testing
+}  // namespace pah::test

@@ -7,7 +7,7 @@
 #include "support/temporary_folder.hpp"
 
 namespace fs = std::filesystem;
-using pah::testing::broken_include_rules;
+using pah::test::broken_include_rules;
 
 namespace {
 

@@ -5,6 +5,7 @@
 #include <optional>
 #include <pah/geometry/vec.hpp>
 #include <random>
+#include <vector>
 
 namespace pah::test {
 
@@ -23,6 +24,9 @@ struct ChiSquare {
   double integral = 0;  // of the density over the domain
 };
 
+// Compares counts with what is expected of each cell; cells that expect fewer than 5 are pooled.
+ChiSquare goodness_of_fit(const std::vector<double>& observed, const std::vector<double>& expected);
+
 // A rectangle in which points are drawn, and the density per its area.
 struct Domain {
   DVec2 min, max;
@@ -30,8 +34,8 @@ struct Domain {
 using PointSampler = std::function<std::optional<DVec2>(Rng&)>;
 using PointDensity = std::function<double(const DVec2&)>;
 
-// 10 x 20 cells, those that expect fewer than 5 of the points pooled. Points that the sampler does
-// not deliver have a cell of their own, which expects what the density's integral lacks.
+// Uses 10 x 20 cells. Points that the sampler does not deliver have a cell of their own, which
+// expects what the density's integral lacks.
 ChiSquare chi_square(const Domain& domain, const PointSampler& sample, const PointDensity& density,
                      int count, Rng& rng);
 

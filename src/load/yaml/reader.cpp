@@ -55,7 +55,7 @@ std::string format_number(double value) {
   return {buffer.data(), end};
 }
 
-std::string describe_range(const Range& range) {
+std::string describe_range(const NumberRange& range) {
   const std::string min = format_number(range.min), max = format_number(range.max);
   if (range.max >= any_number.max && range.min > any_number.min)
     return range.min_open ? "greater than " + min : "at least " + min;
@@ -67,14 +67,14 @@ std::string describe_range(const Range& range) {
   return "between " + min + " and " + max;
 }
 
-bool in_range(double value, const Range& range) {
+bool in_range(double value, const NumberRange& range) {
   return (range.min_open ? value > range.min : value >= range.min) &&
          (range.max_open ? value < range.max : value <= range.max);
 }
 
 // A number wherever it stands: alone or in a list.
 bool read_number(ReadContext& context, const YamlNode& node, const ValueName& name, double& value,
-                 const Range& range) {
+                 const NumberRange& range) {
   double number = 0;
   const NumberFault fault = parse_number(node, number);
   std::string wanted;
@@ -150,12 +150,12 @@ bool is_number(const YamlNode& node) {
 }
 
 bool read_value(ReadContext& context, const YamlNode& node, const ValueName& name, double& value,
-                const Range& range) {
+                const NumberRange& range) {
   return read_number(context, node, name, value, range);
 }
 
 bool read_value(ReadContext& context, const YamlNode& node, const ValueName& name, float& value,
-                const Range& range) {
+                const NumberRange& range) {
   double number = value;
   if (!read_number(context, node, name, number, range)) return false;
   const auto rounded = static_cast<float>(number);
@@ -208,7 +208,7 @@ bool read_value(ReadContext& context, const YamlNode& node, const ValueName& nam
 }
 
 bool read_numbers(ReadContext& context, const YamlNode& node, const ValueName& name, double* values,
-                  std::size_t count, const Range& range) {
+                  std::size_t count, const NumberRange& range) {
   if (node.kind != Kind::list || node.items.size() != count) {
     context.errors.add(node.mark, name + " must be a list of " + std::to_string(count) +
                                       " numbers, not " + describe(node));
@@ -223,12 +223,12 @@ bool read_numbers(ReadContext& context, const YamlNode& node, const ValueName& n
 }
 
 bool read_value(ReadContext& context, const YamlNode& node, const ValueName& name, DVec2& value,
-                const Range& range) {
+                const NumberRange& range) {
   return read_numbers(context, node, name, &value.x, 2, range);
 }
 
 bool read_value(ReadContext& context, const YamlNode& node, const ValueName& name, DVec3& value,
-                const Range& range) {
+                const NumberRange& range) {
   return read_numbers(context, node, name, &value.x, 3, range);
 }
 

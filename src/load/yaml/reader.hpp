@@ -34,16 +34,16 @@ struct ReadContext {
 };
 
 // The numbers that a value may be.
-struct Range {
+struct NumberRange {
   double min = -1e18;  // squares of everything in a scene are finite in float
   double max = 1e18;
   bool min_open = false;
   bool max_open = false;
 };
-inline constexpr Range any_number{};
-inline constexpr Range positive{0, 1e18, true, false};
-inline constexpr Range not_negative{0, 1e18, false, false};
-inline constexpr Range unit_range{0, 1, false, false};
+inline constexpr NumberRange any_number{};
+inline constexpr NumberRange positive{0, 1e18, true, false};
+inline constexpr NumberRange not_negative{0, 1e18, false, false};
+inline constexpr NumberRange unit_range{0, 1, false, false};
 
 // A value's place, in words: "'fov' of camera".
 using ValueName = std::string;
@@ -54,9 +54,9 @@ using ValueName = std::string;
 
 // Each reports what is wrong and returns false, `value` unchanged.
 bool read_value(ReadContext& context, const YamlNode& node, const ValueName& name, double& value,
-                const Range& range = any_number);
+                const NumberRange& range = any_number);
 bool read_value(ReadContext& context, const YamlNode& node, const ValueName& name, float& value,
-                const Range& range = any_number);
+                const NumberRange& range = any_number);
 bool read_value(ReadContext& context, const YamlNode& node, const ValueName& name, int& value,
                 int min, int max);
 bool read_value(ReadContext& context, const YamlNode& node, const ValueName& name,
@@ -67,12 +67,12 @@ bool read_value(ReadContext& context, const YamlNode& node, const ValueName& nam
 bool read_value(ReadContext& context, const YamlNode& node, const ValueName& name,
                 std::string& value);
 bool read_value(ReadContext& context, const YamlNode& node, const ValueName& name, DVec2& value,
-                const Range& range = any_number);
+                const NumberRange& range = any_number);
 bool read_value(ReadContext& context, const YamlNode& node, const ValueName& name, DVec3& value,
-                const Range& range = any_number);
+                const NumberRange& range = any_number);
 // A list of exactly `count` numbers.
 bool read_numbers(ReadContext& context, const YamlNode& node, const ValueName& name, double* values,
-                  std::size_t count, const Range& range = any_number);
+                  std::size_t count, const NumberRange& range = any_number);
 
 // The index of the text in `options`, or reports and returns options.size().
 std::size_t read_option(ReadContext& context, const YamlNode& node, const ValueName& name,

@@ -11,7 +11,7 @@
 #include "support/temporary_folder.hpp"
 
 namespace fs = std::filesystem;
-using namespace pah::testing;
+using namespace pah::test;
 using pah::CurrentTemporaryFolder;
 using pah::cli::numbered;
 using Words = std::vector<std::string>;

@@ -8,7 +8,7 @@
 #include "program.hpp"
 #include "support/temporary_folder.hpp"
 
-using namespace pah::testing;
+using namespace pah::test;
 using pah::CurrentTemporaryFolder;
 using Words = std::vector<std::string>;
 

@@ -7,7 +7,7 @@
 
 using namespace pah;
 using namespace pah::cli;
-using namespace pah::testing;
+using namespace pah::test;
 
 namespace {
 

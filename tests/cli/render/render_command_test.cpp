@@ -12,7 +12,7 @@
 #include "support/temporary_folder.hpp"
 
 namespace fs = std::filesystem;
-using namespace pah::testing;
+using namespace pah::test;
 using pah::CurrentTemporaryFolder;
 using Words = std::vector<std::string>;
 using nlohmann::json;

@@ -10,7 +10,7 @@
 #include <limits>
 #include <stdexcept>
 
-namespace pah::testing {
+namespace pah::test {
 namespace {
 
 constexpr int look_milliseconds = 10;
@@ -242,4 +242,4 @@ int free_port() {
   return port;
 }
 
-}  // namespace pah::testing
+}  // namespace pah::test

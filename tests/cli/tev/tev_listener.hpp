@@ -12,7 +12,7 @@
 #include <thread>
 #include <vector>
 
-namespace pah::testing {
+namespace pah::test {
 
 // What a viewer shows.
 struct ListenedPicture {
@@ -79,4 +79,4 @@ class TevListener {
 // A port that nothing listens on.
 [[nodiscard]] int free_port();
 
-}  // namespace pah::testing
+}  // namespace pah::test

@@ -15,7 +15,7 @@
 #include "tev_listener.hpp"
 
 namespace fs = std::filesystem;
-using namespace pah::testing;
+using namespace pah::test;
 using pah::CurrentTemporaryFolder;
 using pah::Film;
 using pah::Image;

@@ -5,6 +5,7 @@
 
 #include "analytic_scenes.hpp"
 #include "catch.hpp"
+#include "chi_square.hpp"
 #include "render/light/lights.hpp"
 #include "render/sampling/spherical_triangle.hpp"
 
@@ -25,37 +26,6 @@ class Random {
  private:
   std::mt19937 engine_;
 };
-
-// The upper tail of the chi-square distribution, by the Wilson-Hilferty approximation: ample for
-// the hundreds of degrees of freedom here.
-double chi_square_p(double statistic, double freedom) {
-  const double k = 2 / (9 * freedom);
-  const double z = (std::cbrt(statistic / freedom) - (1 - k)) / std::sqrt(k);
-  return 0.5 * std::erfc(z / std::numbers::sqrt2);
-}
-
-// Compares counts with expectations; cells that expect fewer than 5 are pooled.
-double goodness_of_fit(const std::vector<double>& counts, const std::vector<double>& expected) {
-  double statistic = 0, pooled_count = 0, pooled_expected = 0, cells = 0;
-  for (std::size_t i = 0; i < counts.size(); ++i) {
-    if (expected[i] < 5) {
-      pooled_count += counts[i];
-      pooled_expected += expected[i];
-      continue;
-    }
-    const double d = counts[i] - expected[i];
-    statistic += d * d / expected[i];
-    ++cells;
-  }
-  if (pooled_expected > 0) {
-    const double d = pooled_count - pooled_expected;
-    statistic += d * d / std::max(pooled_expected, 1.0);
-    ++cells;
-  } else if (pooled_count > 0) {
-    return 0;
-  }
-  return chi_square_p(statistic, cells - 1);
-}
 
 // Five runs pass together at 1 % (Sidak).
 const double sidak = 1 - std::pow(1 - 0.01, 1.0 / 5);
@@ -120,7 +90,7 @@ TEST_CASE("spherical triangles are sampled uniformly in solid angle") {
       ++counts[static_cast<std::size_t>(cell)];
     }
     INFO("omega " << omega);
-    CHECK(goodness_of_fit(counts, expected) > sidak);
+    CHECK(test::goodness_of_fit(counts, expected).p > sidak);
   }
 }
 
@@ -160,7 +130,7 @@ TEST_CASE("an environment picture is sampled by its density, which integrates to
       counts[i] = 0;
     }
   }
-  CHECK(goodness_of_fit(counts, expected) > 0.01);
+  CHECK(test::goodness_of_fit(counts, expected).p > 0.01);
 }
 
 TEST_CASE("a lat-long picture has -z in its center and +y at its top") {
@@ -251,7 +221,7 @@ TEST_CASE("choosing a light: probabilities are those of the choice and leave no 
       }
       counts.push_back(lost);
       expected.push_back(std::max(0.0, n * (1 - total)));
-      CHECK(goodness_of_fit(counts, expected) > 1e-4);
+      CHECK(test::goodness_of_fit(counts, expected).p > 1e-4);
     }
   }
 }

@@ -63,7 +63,7 @@ void read_bytes(ReadContext& context, const YamlNode& node, const ValueName& nam
                                     "), such as '2 GiB', not " + describe(node));
 }
 
-constexpr Range ratio_range{0, 2, false, false};
+constexpr NumberRange ratio_range{0, 2, false, false};
 constexpr std::uint32_t most_levels = 48;  // deeper ones are built by halves anyhow
 
 void read_leaf_rules(MapReader& map, LeafRules& rules) {
@@ -81,7 +81,7 @@ void read_top_level(MapReader& map, TopLevelConfig& config) {
                                      {"octree", TopLevelKind::octree}});
   map.optional("octree_depth", config.octree_depth, 0, 10);
   double degrees = 0;
-  if (map.optional("direction_tolerance", degrees, Range{0, 180, false, false}))
+  if (map.optional("direction_tolerance", degrees, NumberRange{0, 180, false, false}))
     config.direction_tolerance = glm::radians(degrees);
 }
 
@@ -101,7 +101,7 @@ void read_acceleration(SceneReading& reading, const YamlNode* node) {
                                     {"facing", SplitAxis::facing}});
     map.optional("bins", settings.bins, int{BuildConfig::min_bins}, int{BuildConfig::max_bins});
     map.optional("max_leaf_triangles", settings.max_leaf_triangles, 1, int{BuildConfig::most_leaf});
-    map.optional("least_share", settings.least_share, Range{0, 0.5, false, false});
+    map.optional("least_share", settings.least_share, NumberRange{0, 0.5, false, false});
     read_leaf_rules(map, settings.leaves);
     map.optional("facing_threshold", settings.facing.threshold, unit_range);
     map.optional("acceptable_ratio", settings.facing.acceptable_ratio, ratio_range);

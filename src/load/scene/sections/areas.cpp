@@ -50,7 +50,7 @@ PointAreaDeclaration read_point(SceneReading& reading, MapReader& map) {
   PointAreaDeclaration area;
   read_light_name(reading, map, area.light, BundleShape::point);
   read_nonzero(map, "forward", area.forward);
-  map.optional("fov", area.fov, Range{0, 180, true, true});
+  map.optional("fov", area.fov, NumberRange{0, 180, true, true});
   map.optional("near", area.near, not_negative);
   const bool has_far = map.optional("far", area.far, positive);
   if (area.near >= area.far)

@@ -35,7 +35,7 @@ void read_pose(MapReader& map, CameraType& camera) {
 
 void read_lens(MapReader& map, PerspectiveCamera& camera) {
   constexpr double narrow = 3;  // of a telescope; or radians
-  if (map.optional("fov", camera.fov, Range{0, 180, true, true}) && camera.fov < narrow)
+  if (map.optional("fov", camera.fov, NumberRange{0, 180, true, true}) && camera.fov < narrow)
     map.context().errors.warn(map.mark_of("fov"), "'fov' is in degrees, and this is very narrow");
   map.optional("aperture_radius", camera.aperture_radius, not_negative);
   double focus = 0;
@@ -61,7 +61,7 @@ void read_filter(MapReader& film, FilmSettings& settings) {
     read_map(film.context(), node, "filter", "filter", [&](MapReader& map) {
       PixelFilter filter = settings.filter;
       if (map.option("type", filter, names, true)) set(filter);
-      map.optional("radius", settings.filter_radius, Range{0, 16, true, false});
+      map.optional("radius", settings.filter_radius, NumberRange{0, 16, true, false});
     });
   });
 }
@@ -154,7 +154,7 @@ void read_film(SceneReading& reading, const YamlNode* node) {
                              std::to_string(film.height) + " pixels is larger than the limit of " +
                              std::to_string(reading.limits.film_pixels) + " pixels");
     read_filter(map, film);
-    map.optional("exposure", film.exposure, Range{-64, 64});
+    map.optional("exposure", film.exposure, NumberRange{-64, 64});
     read_crop(map, film);
     read_channels(map, film);
   });

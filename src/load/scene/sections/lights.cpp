@@ -30,7 +30,7 @@ SpotLight read_spot(MapReader& map) {
   if (!read_direction(map, light.direction) && !map.recording())
     map.context().errors.warn(map.mark(), map.title() + " has no direction: it shines down");
   read_radiometry(map, "intensity", light.intensity);
-  map.optional("angle", light.angle, Range{0, 90, true, false});
+  map.optional("angle", light.angle, NumberRange{0, 90, true, false});
   map.optional("blend", light.blend, unit_range);
   return light;
 }
@@ -39,7 +39,7 @@ DirectionalLight read_directional(MapReader& map) {
   DirectionalLight light;
   (void)read_direction(map, light.direction);
   read_radiometry(map, "irradiance", light.irradiance);
-  map.optional("angle", light.angle, Range{0, 90, false, false});
+  map.optional("angle", light.angle, NumberRange{0, 90, false, false});
   return light;
 }
 

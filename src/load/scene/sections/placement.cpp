@@ -61,7 +61,7 @@ Transforms read_repeat(SceneReading& reading, const YamlNode* node, const std::s
                  } else if (type == 1) {
                    GridRepeat grid;
                    DVec3 count{1};
-                   if (map.required("count", count, Range{1, most_copies})) {
+                   if (map.required("count", count, NumberRange{1, most_copies})) {
                      grid.count = UVec3(count);
                      valid = DVec3(grid.count) == count;
                      if (!valid)

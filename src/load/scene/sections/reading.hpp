@@ -93,12 +93,12 @@ void read_acceleration(SceneReading& reading, const YamlNode* node);
 
 // A linear color: [r, g, b], one number for all three, or "#rrggbb" in sRGB.
 bool read_color(ReadContext& context, const YamlNode& node, const ValueName& name, Vec3& value,
-                const Range& range = not_negative);
+                const NumberRange& range = not_negative);
 // Values, or {texture: name} or {image: file}, scaled; `range` is that of value and scale.
 void read_input(SceneReading& reading, MapReader& map, std::string_view key, ColorInput& input,
-                const Range& range);
+                const NumberRange& range);
 void read_input(SceneReading& reading, MapReader& map, std::string_view key, ScalarInput& input,
-                const Range& range);
+                const NumberRange& range);
 // {texture: name} or {image: file}, taken as numbers and not as colors.
 void read_normal_map(SceneReading& reading, MapReader& map, std::string_view key,
                      TextureId& texture);

@@ -89,7 +89,7 @@ std::optional<Texture> read_image_texture(SceneReading& reading, MapReader& map)
 
 // "#rrggbb" to a linear color; false if it is not one.
 // Whether it holds whole numbers up to 255 where 1 is the most.
-bool is_of_bytes(const YamlNode& node, const Range& range) {
+bool is_of_bytes(const YamlNode& node, const NumberRange& range) {
   if (range.max != 1) return false;
   return std::all_of(node.items.begin(), node.items.end(), [](const YamlRef& item) {
     return item->kind == Kind::scalar && !item->text.empty() && item->text.size() <= 3 &&
@@ -128,7 +128,7 @@ std::optional<TextureId> image_texture(SceneReading& reading, const YamlNode& no
 }
 
 bool read_color(ReadContext& context, const YamlNode& node, const ValueName& name, Vec3& value,
-                const Range& range) {
+                const NumberRange& range) {
   if (node.kind == Kind::list) {
     DVec3 color{};
     const std::size_t errors = context.errors.size();
@@ -154,7 +154,7 @@ bool read_color(ReadContext& context, const YamlNode& node, const ValueName& nam
 }
 
 void read_input(SceneReading& reading, MapReader& map, std::string_view key, ColorInput& input,
-                const Range& range) {
+                const NumberRange& range) {
   map.nested(key, [&](const YamlNode* node) {
     const ValueName name = map.name_of(key);
     if (node != nullptr && node->kind != Kind::map) {
@@ -171,7 +171,7 @@ void read_input(SceneReading& reading, MapReader& map, std::string_view key, Col
 }
 
 void read_input(SceneReading& reading, MapReader& map, std::string_view key, ScalarInput& input,
-                const Range& range) {
+                const NumberRange& range) {
   map.nested(key, [&](const YamlNode* node) {
     const ValueName name = map.name_of(key);
     if (node != nullptr && node->kind != Kind::map) {
