@@ -46,7 +46,7 @@ GridPlan plan_grid(std::uint32_t bundle, const ExactBundle& rays, const GridPilo
   plan.pilot = pilot;
   plan.predicted_bytes = usual_bytes_a_triangle * at.triangles;
   if (pilot.rays == 0 || !(pilot.cost > 0)) {
-    plan.reason = "no ray of the pilot goes to it";
+    plan.reason = "none of the pilot's rays goes to it";
     return plan;
   }
   plan.predicted_seconds = pilot.seconds * look_up_cost(rays, pilot.cost) / pilot.cost;
@@ -56,9 +56,9 @@ GridPlan plan_grid(std::uint32_t bundle, const ExactBundle& rays, const GridPilo
   if (plan.predicted_bytes > at.memory_left) {
     plan.reason = "it would take more memory than the scene allows";
   } else if (plan.predicted_seconds >= pilot.seconds) {
-    plan.reason = "its rays cost no more in the BVH";
+    plan.reason = "the BVH answers its rays at least as fast";
   } else if (plan.predicted_saving <= plan.predicted_build_seconds) {  // predictions being rough
-    plan.reason = "so few rays are expected that it would cost more than it saves";
+    plan.reason = "too few rays are expected: it would cost more than it saves";
   } else {
     plan.build = true;
     plan.reason = "it is expected to save more than it costs";
@@ -76,7 +76,7 @@ void measure_grid(GridPlan& plan, double seconds_a_ray, double build_seconds, st
     plan.reason = "it took more memory than the scene allows";
   } else if (seconds_a_ray >= pilot.seconds) {
     plan.build = false;
-    plan.reason = "once built, the pilot's rays were no faster";
+    plan.reason = "the pilot's rays were no faster once it was built";
   }
 }
 

@@ -34,7 +34,7 @@ void check_outputs(const InspectArguments& arguments) {
   const auto check_extension = [](const fs::path& file, std::string_view option,
                                   std::string_view extension) {
     if (!file.empty() && file.extension() != extension)
-      throw UsageError(fmt::format("{} writes {} files: {} its extension is another", option,
+      throw UsageError(fmt::format("{} writes {} files; {} has another extension", option,
                                    extension, file.string()));
   };
   check_extension(arguments.heat_map, "--heatmap", ".png");
@@ -121,7 +121,7 @@ void write_structures(const fs::path& file, const World& world, const Accelerati
                       const FilmSettings& film) {
   const StructureMap map = map_structures(world, acceleration, film);
   write_image(file, {{"", {"R", "G", "B"}, map.image}});
-  fmt::print("\nstructures that answer shadow rays, {}: black is where there are none\n{}",
+  fmt::print("\nstructures that answer shadow rays, {}: black where no shadow ray is sent\n{}",
              file.string(), legend_text(map.legend));
 }
 

@@ -1,4 +1,4 @@
-// The program: what the command line says, and how it ends.
+// The program: parses the command line, runs a command and returns its exit code.
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
@@ -42,10 +42,9 @@ void add_render_options(CLI::App& app, RenderArguments& arguments) {
          [&arguments](const std::string& text) {
            arguments.sample_range = parse_range(text);
            if (!arguments.sample_range)
-             throw CLI::ValidationError(
-                 "--samples", text +
-                                  " is not FROM:TO with 0 <= FROM < TO <= 2^30; for a number of "
-                                  "samples there is --spp");
+             throw CLI::ValidationError("--samples", text +
+                                                         " is not FROM:TO with 0 <= FROM < TO <= "
+                                                         "2^30; use --spp for a number of samples");
          },
          "Render only the samples FROM <= i < TO of each pixel,\n"
          "to a .film file for merge")
@@ -57,18 +56,18 @@ void add_render_options(CLI::App& app, RenderArguments& arguments) {
            arguments.frames = parse_frames(text);
            if (!arguments.frames)
              throw CLI::ValidationError(
-                 "--frames", text + " is neither A:B with 0 <= A < B <= 2^30 nor one frame");
+                 "--frames", text + " is neither A:B with 0 <= A < B <= 2^30 nor a frame number");
          },
          "Render the frames A <= i < B of an animation, or one.\n"
-         "#### in FILE is their number. Those that are there,\n"
-         "whole and of this scene, are kept (.png, .exr, .film)")
+         "#### in FILE is the frame's number. Complete frames of\nthis scene are kept (.png, .exr, "
+         ".film)")
       ->type_name("A:B");
   app.add_option("--width", arguments.width,
-                 "Of the picture, in pixels; without --height that\n"
-                 "follows, as the scene's")
+                 "Width of the picture in pixels; without --height, the\nheight follows the "
+                 "scene's aspect ratio")
       ->check(whole_number(1, 65536))
       ->type_name("N");
-  app.add_option("--height", arguments.height, "Likewise")
+  app.add_option("--height", arguments.height, "Height of the picture in pixels, likewise")
       ->check(whole_number(1, 65536))
       ->type_name("N");
   app.add_option_function<std::string>(
@@ -83,30 +82,26 @@ void add_render_options(CLI::App& app, RenderArguments& arguments) {
          "Y0 <= y < Y1; y grows downwards")
       ->type_name("X0,X1,Y0,Y1");
   app.add_flag("--preview", arguments.preview,
-               "A quarter of the width and height, and 4 samples if\n"
-               "there is no --spp");
-  app.add_option("--threads", arguments.threads, "0, the default: one per core")
+               "Render a quarter of the width and height, with 4\nsamples unless --spp is given");
+  app.add_option("--threads", arguments.threads, "Number of threads; 0, the default: one per core")
       ->check(whole_number(0, 1024))
       ->type_name("N");
-  app.add_option("--seed", arguments.seed, "Another seed, another noise")
+  app.add_option("--seed", arguments.seed, "Seed of the random numbers: another seed, other noise")
       ->check(CLI::NonNegativeNumber.description(""))
       ->type_name("N");
   app.add_option("--time-limit", arguments.time_limit,
-                 "Stop after so many seconds in all, with the samples\nthat are finished")
+                 "Stop after SECONDS in total and save the finished\nsamples")
       ->check(finite_number(0))
       ->type_name("SECONDS");
   app.add_option("--checkpoint", arguments.checkpoint,
-                 "Keep what is rendered so far in FILE.film, written\n"
-                 "every so many seconds; removed when the picture is\n"
-                 "there")
+                 "Save the state of the render to FILE.film every\nSECONDS; removed when the "
+                 "picture is complete")
       ->check(finite_number(0))
       ->type_name("SECONDS");
   app.add_flag("--resume", arguments.resume,
-               "Go on from FILE.film if it is there; the picture is\n"
-               "the same to the last bit");
+               "Continue from FILE.film if it exists; the picture is\nthe same to the last bit");
   app.add_option("--write-every", arguments.write_every,
-                 "Write the picture so far every so many seconds, and\n"
-                 "once every pixel has a sample")
+                 "Write the unfinished picture every SECONDS, as soon as\nevery pixel has a sample")
       ->check(finite_number(0))
       ->type_name("SECONDS");
   app.add_option_function<std::string>(
@@ -119,35 +114,34 @@ void add_render_options(CLI::App& app, RenderArguments& arguments) {
                               " is not HOST, HOST:PORT or PORT with 1 <= PORT <= 65535; an IPv6 "
                               "address is in brackets, [::1]:14158");
          },
-         "Show the picture under way in the viewer tev that\n"
-         "listens there; its own default is 127.0.0.1:14158")
+         "Show the picture in the viewer tev while it renders;\ntev listens on 127.0.0.1:14158 by "
+         "default")
       ->type_name("HOST:PORT");
-  app.add_option("--exposure", arguments.exposure, "In stops; for .png and .jpg")
+  app.add_option("--exposure", arguments.exposure, "Exposure in stops, for .png and .jpg")
       ->check(finite_number(-std::numeric_limits<double>::infinity()))
       ->type_name("X");
   std::string accelerator_help =
-      "What answers rays. It changes the time, never the\npicture. By default local if the scene "
-      "declares\ninfluence areas, else bvh:";
+      "The structure that answers rays. It changes the time,\nnever the picture. By default local "
+      "if the scene\ndeclares influence areas, light if a grid pays, else\nbvh:";
   for (const AcceleratorName& choice : accelerator_names())
-    accelerator_help += fmt::format("\n{:12} {}", choice.name, choice.what);
+    accelerator_help += fmt::format("\n{:12} {}", choice.name, choice.description);
   app.add_option("--accel", arguments.accelerator, accelerator_help)
       ->check(accelerator_name())
       ->type_name("NAME");
   app.add_option("-D", arguments.overrides,
                  "Set a key of the scene: -D render.max_depth=3. May be\nrepeated")
-      ->allow_extra_args(false)  // else it would take the scene that follows
+      ->allow_extra_args(false)  // otherwise it would take the scene that follows
       ->type_name("KEY=VALUE");
-  app.add_option("--stats", arguments.stats, "Write what was done and how long it took, as JSON")
+  app.add_option("--stats", arguments.stats, "Write times, rays, memory and error as JSON")
       ->type_name("FILE");
   app.add_flag("--half", arguments.half, "EXR: 16-bit floats instead of 32-bit");
   app.add_option("--png-bits", arguments.png_bits, "PNG: 8, the default, or 16 bits a channel")
       ->check(CLI::IsMember({8, 16}).description(""))
       ->type_name("N");
-  app.add_flag("--quiet", arguments.quiet, "Say nothing but errors");
-  app.add_flag("--strict", arguments.strict,
-               "Take warnings for errors: with one that is known\n"
-               "before rendering there is no picture, and the program\n"
-               "ends with 3");
+  app.add_flag("--quiet", arguments.quiet, "Print errors only");
+  app.add_flag(
+      "--strict", arguments.strict,
+      "Treat warnings as errors: no picture if one is known\nbefore rendering; the exit code is 3");
   app.add_flag("--check", arguments.check, "Only load the scene and report its errors");
 }
 
@@ -168,7 +162,7 @@ CLI::App* add_compare(CLI::App& app, CompareArguments& arguments) {
 
 CLI::App* add_merge(CLI::App& app, MergeArguments& arguments) {
   CLI::App* merge = app.add_subcommand(
-      "merge", "Put .film files of one picture together, rendered by --samples or --crop");
+      "merge", "Merge .film files of one picture, rendered with --samples or --crop");
   merge->get_formatter()->column_width(25);
   merge->add_option("PART", arguments.parts, ".film files, in any order")
       ->required()
@@ -177,7 +171,7 @@ CLI::App* add_merge(CLI::App& app, MergeArguments& arguments) {
       ->add_option("-o,--output", arguments.output, "The picture, or a .film file to merge further")
       ->required()
       ->type_name("FILE");
-  merge->add_option("--exposure", arguments.exposure, "In stops; for .png and .jpg")
+  merge->add_option("--exposure", arguments.exposure, "Exposure in stops, for .png and .jpg")
       ->check(finite_number(-std::numeric_limits<double>::infinity()))
       ->type_name("X");
   return merge;
@@ -185,8 +179,7 @@ CLI::App* add_merge(CLI::App& app, MergeArguments& arguments) {
 
 CLI::App* add_inspect(CLI::App& app, InspectArguments& arguments) {
   CLI::App* inspect = app.add_subcommand(
-      "inspect",
-      "Print what a scene's BVHs and the grids of its lights are like and what they cost rays");
+      "inspect", "Report the structure and cost of a scene's BVHs and light grids");
   inspect->get_formatter()->column_width(25);
   inspect->add_option("SCENE", arguments.scene, "A YAML file")->required()->type_name("");
   inspect
@@ -194,14 +187,14 @@ CLI::App* add_inspect(CLI::App& app, InspectArguments& arguments) {
                    "Set a key of the scene: -D film.width=64. May be\nrepeated")
       ->allow_extra_args(false)
       ->type_name("KEY=VALUE");
-  inspect->add_option("--width", arguments.width, "Camera rays in a row")
+  inspect->add_option("--width", arguments.width, "Number of camera rays in a row")
       ->check(whole_number(1, 65536))
       ->type_name("N");
-  inspect->add_option("--height", arguments.height, "Rows of camera rays")
+  inspect->add_option("--height", arguments.height, "Number of rows of camera rays")
       ->check(whole_number(1, 65536))
       ->type_name("N");
   inspect->add_flag("--all-areas", arguments.all_areas,
-                    "Also areas that are derived and that a render does\nnot build");
+                    "Include derived areas that a render does not build");
   inspect->add_option("--json", arguments.json, "Write the report as JSON")->type_name("FILE");
   inspect
       ->add_option("--heatmap", arguments.heat_map,
@@ -237,10 +230,10 @@ CLI::App* add_study(CLI::App& app, StudyArguments& arguments) {
   study->add_flag("--quick", arguments.quick, "Fewer areas and rays: a first look");
   study
       ->add_option("--rays", arguments.rays,
-                   "Rays of each area; by default 100000, or\n5000 with --quick")
+                   "Rays for each area; by default 100000, or\n5000 with --quick")
       ->check(CLI::Range(1, 100'000'000).description(""))
       ->type_name("N");
-  study->add_option("--seed", arguments.seed, "Of the rays; 1 by default")
+  study->add_option("--seed", arguments.seed, "Seed of the rays; 1 by default")
       ->check(CLI::NonNegativeNumber.description(""))
       ->type_name("N");
   return study;
@@ -248,7 +241,7 @@ CLI::App* add_study(CLI::App& app, StudyArguments& arguments) {
 
 CLI::App* add_watch(CLI::App& app, RenderArguments& arguments) {
   CLI::App* watch = app.add_subcommand(
-      "watch", "Render anew whenever the scene or a file that it names changes, until Ctrl-C");
+      "watch", "Render again whenever the scene or one of its files changes, until Ctrl-C");
   watch->get_formatter()->column_width(25);
   add_render_options(*watch, arguments);
   return watch;
@@ -262,7 +255,7 @@ void reject_render_options(const CLI::App& app, const CLI::App& subcommand) {
           fmt::format("{} cannot be used with {}", option->get_name(), subcommand.get_name()));
 }
 
-// What an argument that there is none of is meant to be.
+// The option that a misspelled argument most likely meant.
 std::string usage_hint(const CLI::App& app, int argc, char** argv) {
   std::vector<std::string> options;
   for (const CLI::Option* option : app.get_options())
@@ -326,20 +319,22 @@ ExitCode run(int argc, char** argv) {
   }
   if (watch->parsed()) {
     reject_render_options(app, *watch);
-    if (watch_arguments.scene.empty()) throw UsageError("which scene?");
+    if (watch_arguments.scene.empty())
+      throw UsageError("no scene is given: pahrender watch SCENE -o OUT");
     return run_watch(watch_arguments);
   }
-  if (render_arguments.scene.empty()) throw UsageError("which scene?");
+  if (render_arguments.scene.empty()) throw UsageError("no scene is given: pahrender SCENE -o OUT");
   return run_frames(render_arguments);
 }
 
-// The next file that is opened takes the place of a stream that is closed, and would be written to.
+// If a standard stream is closed, the next file that is opened takes its number, and messages would
+// be written into that file.
 void hold_standard_streams() {
   for (int stream = 0; stream < 3; ++stream)
     if (::fcntl(stream, F_GETFD) == -1) (void)::open("/dev/null", O_RDONLY);
 }
 
-// oneTBB throws where nobody can catch it if it is not given a thread.
+// If the system refuses a thread, oneTBB throws where nobody can catch it.
 [[noreturn]] void end_without_catch() {
   const std::exception_ptr error = std::current_exception();
   if (!error) std::abort();
@@ -352,7 +347,7 @@ void hold_standard_streams() {
     }
     say("There may be too little memory for so many threads; see --threads.\n");
   } catch (...) {
-    ::_exit(failed);  // too little for words, even
+    ::_exit(failed);  // not even enough memory for a message
   }
   ::_exit(failed);
 }

@@ -116,8 +116,8 @@ Subjects load_all(const std::vector<fs::path>& files) {
   return all;
 }
 
-void show_progress(double done, const std::string& what) {
-  say(fmt::format("\r{:3.0f} %  {}\x1b[K", 100 * done, what));
+void show_progress(double done, const std::string& stage) {
+  say(fmt::format("\r{:3.0f} %  {}\x1b[K", 100 * done, stage));
 }
 
 }  // namespace

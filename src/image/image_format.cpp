@@ -50,7 +50,7 @@ const std::vector<std::string>& image_extensions() {
 void check_writable(const fs::path& file) {
   // Its writer goes back and forth, which neither a device nor a pipe does.
   if (encoding_of(file) == Encoding::tiff && is_device(file))
-    fail_to_write(file, "a TIFF file cannot go to a device");
+    fail_to_write(file, "a TIFF file cannot be written to a device");
   check_can_create(file);
 }
 

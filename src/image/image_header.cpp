@@ -18,9 +18,9 @@ auto guarded(const Read& read) {
   } catch (const PictureError& error) {
     throw FileError(error.what());
   } catch (const std::bad_alloc&) {
-    throw FileError("it takes more memory than there is");
+    throw FileError("there is not enough memory for it");
   } catch (const std::length_error&) {
-    throw FileError("it takes more memory than there can be");
+    throw FileError("it needs more memory than any machine has");
   }
 }
 

@@ -55,7 +55,7 @@ void warn_of_memory(const Acceleration& acceleration, const AccelerationSettings
   if (settings.memory && bytes > *settings.memory)
     warnings.push_back(
         fmt::format("the BVH of the whole scene takes {}, more than the {} of 'memory' of "
-                    "acceleration; it is built all the same",
+                    "acceleration; it is built anyway",
                     format_bytes(bytes), format_bytes(*settings.memory)));
 }
 
@@ -69,7 +69,7 @@ void warn_of_areas(const Acceleration& acceleration, const World& world, const F
     if (!area.declared) continue;
     const std::string title = fmt::format("influence area '{}'", area.name);
     if (no_ray_enters(area, world, film))
-      warnings.push_back(title + " lies where no ray of its light goes");
+      warnings.push_back(title + " lies where its light sends no rays");
     else if (report.triangles == 0)
       warnings.push_back(title + " meets no mesh");
     else if (report.predicted_cost > report.global_cost)

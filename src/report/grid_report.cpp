@@ -69,8 +69,8 @@ OrderedJson grid_json(const GridReport& grid) {
           {"longest_list", part_of(grid.lists, &GridLists::longest_list)}};
 }
 
-std::string line(std::string_view name, const std::string& what) {
-  return fmt::format("  {:18}{}\n", name, what);
+std::string line(std::string_view name, const std::string& value) {
+  return fmt::format("  {:18}{}\n", name, value);
 }
 
 std::string seconds(double value) { return fmt::format("{:.3g} s", value); }

@@ -168,7 +168,7 @@ std::uint32_t bundle_of(const World& world, const std::string& light) {
   const auto found = std::ranges::find(world.lights, light, &Light::name);
   if (found == world.lights.end())
     throw std::invalid_argument("an influence area names '" + light +
-                                "', which is no light of the scene");
+                                "', which is not a light of the scene");
   return static_cast<std::uint32_t>(found - world.lights.begin());
 }
 

@@ -11,14 +11,14 @@ namespace {
 constexpr double min_length = 1e-18;
 constexpr double max_length = 1e18;
 
-void require_length(double value, const char* what) {
+void require_length(double value, const char* name) {
   if (!(value >= min_length && value <= max_length))
-    throw std::invalid_argument(std::string(what) + " must be a positive length, 1e-18 to 1e18");
+    throw std::invalid_argument(std::string(name) + " must be a positive length, 1e-18 to 1e18");
 }
 
-void require_count(int value, int low, int high, const char* what) {
+void require_count(int value, int low, int high, const char* name) {
   if (value < low || value > high)
-    throw std::invalid_argument(std::string(what) + " must be in [" + std::to_string(low) + ", " +
+    throw std::invalid_argument(std::string(name) + " must be in [" + std::to_string(low) + ", " +
                                 std::to_string(high) + "]");
 }
 

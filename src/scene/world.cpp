@@ -21,7 +21,7 @@ const char* text_of(Fault fault) {
     case Fault::none:
       break;
     case Fault::index:
-      return "a triangle names no vertex of its mesh";
+      return "a triangle has an index that is not a vertex of its mesh";
     case Fault::position:
       return "a position is not finite, or too large once transformed";
     case Fault::normal:
@@ -32,8 +32,8 @@ const char* text_of(Fault fault) {
   return "";
 }
 
-[[noreturn]] void fail(const Mesh& mesh, const std::string& what) {
-  throw std::invalid_argument("mesh '" + mesh.name + "': " + what);
+[[noreturn]] void fail(const Mesh& mesh, const std::string& fault) {
+  throw std::invalid_argument("mesh '" + mesh.name + "': " + fault);
 }
 
 DVec3 transform_point(const glm::dmat4x3& m, const Vec3& p) { return m * glm::dvec4(DVec3(p), 1); }
@@ -82,18 +82,18 @@ DMat3 normalized_linear(const glm::dmat4x3& m) {
 
 void require_valid(const Scene& scene, const Instance& instance) {
   if (instance.mesh >= scene.meshes.size())
-    throw std::invalid_argument("an instance names no mesh of the scene");
+    throw std::invalid_argument("an instance refers to a mesh that does not exist");
   const Mesh& mesh = scene.meshes[instance.mesh];
   if (instance.material >= scene.materials.size())
-    fail(mesh, "its instance names no material of the scene");
+    fail(mesh, "its instance refers to a material that does not exist");
   if (instance.light != no_light && instance.light >= scene.lights.size())
-    fail(mesh, "its instance names no light of the scene");
+    fail(mesh, "its instance refers to a light that does not exist");
   if (!mesh.normals.empty() && mesh.normals.size() != mesh.positions.size())
-    fail(mesh, "as many normals as positions are needed, or none");
+    fail(mesh, "there must be as many normals as positions, or none");
   if (!mesh.uvs.empty() && mesh.uvs.size() != mesh.positions.size())
-    fail(mesh, "as many texture coordinates as positions are needed, or none");
+    fail(mesh, "there must be as many texture coordinates as positions, or none");
   if (!mesh.colors.empty() && mesh.colors.size() != mesh.positions.size())
-    fail(mesh, "as many colors as positions are needed, or none");
+    fail(mesh, "there must be as many colors as positions, or none");
   const double det = glm::determinant(normalized_linear(instance.world_from_object));
   if (!std::isfinite(det) || det == 0) fail(mesh, "its transform is not finite or flattens it");
 }
@@ -215,9 +215,9 @@ void warn_of_lost_shapes(const Scene& scene, const std::vector<Bounds>& boxes, W
   }
   if (lost == 0) return;
   const std::string& name = scene.meshes[scene.instances[first].mesh].name;
-  world.warnings.push_back(title_of(name) +
-                           (lost > 1 ? " and " + std::to_string(lost - 1) + " more are" : " is") +
-                           " too far from the rest of the scene for the size: the shape is lost");
+  world.warnings.push_back(
+      title_of(name) + (lost > 1 ? " and " + std::to_string(lost - 1) + " more are" : " is") +
+      " too far from the rest of the scene for its size: rounding destroys its shape");
 }
 
 void warn_of_dark_camera(const Scene& scene, const std::vector<Bounds>& boxes, World& world) {

@@ -105,10 +105,10 @@ TEST_CASE("inspect tells which lights have grids, and why") {
   CHECK(bulb["build_seconds"].is_null());
   const auto& below = report["light_grids"][1];
   CHECK(below["light"] == "a, \"b\"");
-  CHECK(below["reason"] == "no ray of the pilot goes to it");
+  CHECK(below["reason"] == "none of the pilot's rays goes to it");
   CHECK(below["pilot_rays"] == 0);
   for (const char* part : {"rays of a render are answered by: bvh", "Grid of light bulb: not built",
-                           "no ray of the pilot goes to it", "a ray in the BVH"})
+                           "none of the pilot's rays goes to it", "a ray in the BVH"})
     CHECK(contains(outcome.out, part));
 
   const auto reason_with = [](const std::string& key) {

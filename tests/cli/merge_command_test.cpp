@@ -108,7 +108,7 @@ TEST_CASE("parts that overlap, are missing or of other renders are named") {
   check_refused({"d.film", "a.film", "b.film"}, "b.film and d.film overlap: both have sample 6");
   check_refused({"a.film", "a.film"}, "a.film and a.film overlap");
   check_refused({"a.film", "none.film"}, "none.film");
-  check_refused({"a.film", "scene.yaml"}, "scene.yaml is not a film of pahrender's");
+  check_refused({"a.film", "scene.yaml"}, "scene.yaml is not a pahrender film");
 
   render_part("seed.film", "4:8", {"--seed", "9"});
   check_refused({"a.film", "seed.film"}, "seed.film does not go with a.film: the seed is 9, not 3");
@@ -152,8 +152,9 @@ TEST_CASE("parts by crops, and by samples besides, give the picture of the whole
 
   check_refused({"top.film", "left.film"},
                 "the pixels 20,32,9,24 are missing; render what is missing by --crop 20,32,9,24");
-  check_refused({"top.film", "left.film", "right_a.film"},
-                "right_a.film has samples 0:2, and top.film has 0:6; every pixel needs as many");
+  check_refused(
+      {"top.film", "left.film", "right_a.film"},
+      "right_a.film has samples 0:2, and top.film has 0:6; every pixel needs the same samples");
   render_part("wide.film", "0:6", with_layers({"--crop", "12,32,9,24"}));
   check_refused({"top.film", "left.film", "wide.film"},
                 "left.film and wide.film overlap: both have the pixels 12,20,9,24");

@@ -24,7 +24,6 @@ TEST_CASE("without its module the program says so rather than render") {
   write_file("scene.yaml", small_scene);
   const int status = std::system("./pahrender scene.yaml 2> err");
   CHECK(WEXITSTATUS(status) == 4);
-  CHECK(contains(read_file("err"),
-                 "cannot load what reads and writes pictures: libpahrender_pictures"));
+  CHECK(contains(read_file("err"), "cannot load the picture library: libpahrender_pictures"));
   CHECK_FALSE(fs::exists("scene.png"));
 }

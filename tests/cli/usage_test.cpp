@@ -183,7 +183,7 @@ TEST_CASE("outputs that would harm one another or a device are refused") {
   write_file("scene.yaml", small_scene);
   check_failure({"scene.yaml", "-o", "a.png", "--stats", "./a.png"}, 2, "name the same file");
   std::filesystem::create_symlink("/dev/null", "null.tif");
-  check_failure({"scene.yaml", "-o", "null.tif"}, 4, "a TIFF file cannot go to a device");
+  check_failure({"scene.yaml", "-o", "null.tif"}, 4, "a TIFF file cannot be written to a device");
   CHECK(std::filesystem::is_symlink("null.tif"));
 }
 

@@ -90,7 +90,7 @@ TEST_CASE("influence areas that were declared in vain are warned of") {
   const std::string aside = "[1, 0, 0]";
   CHECK(contains(error_of(bulb, point(down, 1)), "warning: influence area 'bulb' meets no mesh"));
   CHECK(contains(error_of(spot, point(aside, 9)),
-                 "warning: influence area 'bulb' lies where no ray of its light goes"));
+                 "warning: influence area 'bulb' lies where its light sends no rays"));
   CHECK(!contains(error_of(spot, point(down, 9)), "warning"));
   CHECK(!contains(error_of(bulb, point(down, 9)), "warning"));
 }

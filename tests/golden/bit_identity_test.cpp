@@ -11,7 +11,7 @@ using namespace pah;
 namespace {
 
 bool identical(const FilmPixel& a, const FilmPixel& b) {
-  return a.sum == b.sum && a.rest == b.rest && a.sum_of_squares == b.sum_of_squares &&
+  return a.sum == b.sum && a.error == b.error && a.sum_of_squares == b.sum_of_squares &&
          a.samples == b.samples && a.hits == b.hits;
 }
 

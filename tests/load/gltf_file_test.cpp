@@ -383,7 +383,7 @@ TEST_CASE("glTF: what is broken is said") {
   CHECK(has(broken("/meshes/0/primitives/0/indices", 2), "not whole numbers"));
   CHECK(has(broken("/meshes/0/primitives/0/attributes/POSITION", 9), "'POSITION' names"));
   CHECK(has(broken("/nodes/0/children", {0}), "circle"));
-  CHECK(has(broken("/nodes/0/children", {5}), "node 0 has a child that is no node of the file"));
+  CHECK(has(broken("/nodes/0/children", {5}), "node 0 has a child that does not exist"));
   CHECK(has(broken("/accessors", 3), "not a list"));
   CHECK(has(broken("/asset", 3), "not of the kind"));
   CHECK_FALSE(broken("/nodes/0/mesh", 3).empty());

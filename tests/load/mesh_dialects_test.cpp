@@ -284,13 +284,13 @@ TEST_CASE("what a mesh file has that cannot be shown is told") {
   std::ofstream(folder / "a b.mtl")
       << "\xEF\xBB\xBFnewmtl a\nKd 1 0 0\naniso 0.5\nmap_Bump x.png\n";
   CHECK(warnings("obj", "mtllib a b.mtl\n" + v + "usemtl a\nf 1 2 3\nusemtl b\nf 1 3 4\n") ==
-        "a b.mtl: 'aniso', 'map_Bump' cannot be shown and is left out\n"
+        "a b.mtl: 'aniso', 'map_Bump' is not supported and is left out\n"
         "no material library has 'b', used by faces: gray instead\n");
   const std::string binary =
       binary_ply<float, std::uint8_t, std::int32_t>("float", "uchar", "int", false);
   CHECK(warnings("ply", binary) == "");
   CHECK(warnings("ply", binary + "abc") ==
-        "3 bytes are more than the header tells of, and left out\n");
+        "3 bytes exceed what the header declares, and are left out\n");
 }
 
 TEST_CASE("a mesh file in which the counts do not agree is an error") {

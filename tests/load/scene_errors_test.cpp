@@ -125,9 +125,9 @@ TEST_CASE("a byte order mark and Windows line ends are no errors") {
 
 TEST_CASE("aliases that hold themselves or grow without limit") {
   check_all({{"x-a: &a\n  - [1, *a]\n",
-              "scene.yaml:2:9: error: this alias stands inside what it stands for"},
+              "scene.yaml:2:9: error: this alias refers to a value that contains it"},
              {"x-a: &a {b: *a}\n",
-              "scene.yaml:1:13: error: this alias stands inside what it stands for"}});
+              "scene.yaml:1:13: error: this alias refers to a value that contains it"}});
   std::string bomb = "x-0: &a0 [1, 1, 1, 1, 1, 1, 1, 1, 1, 1]\n";
   for (int i = 1; i < 30; ++i) {
     const std::string alias = "*a" + std::to_string(i - 1);

@@ -107,12 +107,12 @@ TEST_CASE("scenes that may not be meant so get warnings") {
   const std::string bulb = "lights: [{type: point}]\n";
   CHECK(warnings(box + bulb) == "");
   CHECK(warnings(box) == "0:0: the scene has no light: the picture will be black\n");
-  CHECK(warnings(bulb) == "0:0: the scene has no mesh: there is nothing to light\n");
+  CHECK(warnings(bulb) == "0:0: the scene has no mesh: the picture will be empty\n");
   CHECK(warnings(box + bulb + "camera: {fov: 0.8}\n") ==
         "3:15: 'fov' is in degrees, and this is very narrow\n");
   CHECK(warnings(box + "lights: [{type: spot}]") ==
-        "2:10: light 1 has no direction: it shines down\n");
+        "2:10: light 1 has no direction; it shines down\n");
   CHECK(warnings("meshes: [{shape: box, scatter: {count: 50, min_distance: 3, size: [4, 4]}}]\n" +
-                 bulb) == "1:40: only 3 of 50 copies find room at this 'min_distance'\n");
+                 bulb) == "1:40: only 3 of 50 copies fit at this 'min_distance'\n");
   CHECK(warnings("meshes: [{shape: box, scatter: {count: 5, size: [4, 4]}}]\n" + bulb) == "");
 }

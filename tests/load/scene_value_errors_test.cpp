@@ -92,8 +92,8 @@ TEST_CASE("bad materials and textures") {
       {"materials: {m: {type: diffuse, reflectance: {image: no.png}}}",
        "scene.yaml:1:53: error: file 'no.png' does not exist"},
       {"materials: {m: {type: diffuse, reflectance: {image: scene.yaml}}}",
-       "scene.yaml:1:53: error: cannot read image 'scene.yaml': its first bytes "
-       "are of no picture format that is read; those are PNG, JPEG, EXR, Radiance HDR, TIFF, BMP, "
+       "scene.yaml:1:53: error: cannot read image 'scene.yaml': its first bytes match no supported "
+       "picture format; supported are PNG, JPEG, EXR, Radiance HDR, TIFF, BMP, "
        "WebP, TGA"},
       {"textures: {t: {type: image, file: .}}", "scene.yaml:1:35: error: '.' is a directory"},
   });
@@ -179,7 +179,7 @@ TEST_CASE("bad copies") {
        "scene.yaml:1:51: error: 'count' of repeat of mesh 1 must be whole numbers"},
       {"meshes: [{shape: box, scatter: {count: 3, over: lawn}}]",
        "scene.yaml:1:49: error: unknown mesh 'lawn' in 'over' of scatter of mesh 1; there are "
-       "none: a mesh has to come before those that name it"},
+       "none: a mesh must come before the meshes that name it"},
       {"meshes: [{shape: box, scatter: {count: 3, scale: [2, 1]}}]",
        "scene.yaml:1:50: error: 'scale' of scatter of mesh 1 must rise: [smallest, largest]"},
       {"meshes: [{shape: sphere, segments: 1000, rings: 500, repeat: {type: line, count: 1000, "
@@ -195,8 +195,8 @@ TEST_CASE("bad lights and influence areas") {
       {"lights: [{name: a, type: point}, {name: a, type: point}]",
        "scene.yaml:1:41: error: duplicate light name 'a'; the first is on line 1"},
       {"lights: [{name: camera, type: point}]",
-       "scene.yaml:1:17: error: no light can be named 'camera': influence areas name the camera "
-       "so"},
+       "scene.yaml:1:17: error: a light cannot be named 'camera': influence areas use this name "
+       "for the camera"},
       {"lights: [{type: directional, direction: [0, 0, 0]}]",
        "scene.yaml:1:41: error: 'direction' of light 1 must not be zero"},
       {"lights: [{type: area, radiance: 3}]",

@@ -143,7 +143,7 @@ inline bool identical(const Film& a, const Film& b) {
   for (std::size_t i = 0; i < a.pixels.size(); ++i) {
     const FilmPixel& p = a.pixels[i];
     const FilmPixel& q = b.pixels[i];
-    if (p.sum != q.sum || p.rest != q.rest || p.sum_of_squares != q.sum_of_squares ||
+    if (p.sum != q.sum || p.error != q.error || p.sum_of_squares != q.sum_of_squares ||
         p.samples != q.samples || p.hits != q.hits) {
       return false;
     }

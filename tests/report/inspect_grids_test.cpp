@@ -45,6 +45,7 @@ TEST_CASE("the text of a grid that was not built says why, and what is known") {
   CHECK(grid_text(grid) ==
         "\nGrid of light sun: not built\n  reason            no shadow rays are sent\n");
   grid.plan = plan_grid(0, PointBundle{}, {}, {});
-  CHECK(grid_text(grid) ==
-        "\nGrid of light sun: not built\n  reason            no ray of the pilot goes to it\n");
+  CHECK(
+      grid_text(grid) ==
+      "\nGrid of light sun: not built\n  reason            none of the pilot's rays goes to it\n");
 }

@@ -45,7 +45,7 @@ TEST_CASE("a declared area answers the shadow rays that start in it") {
   scene.influence_areas.declared = {area};
   const StructureMap map = map_of(scene);
   REQUIRE(map.legend.size() == 2);
-  CHECK(map.legend[1].what == "area bulb");
+  CHECK(map.legend[1].label == "area bulb");
   CHECK(map.image.at(8, 8) == map.legend[1].color);
   CHECK(map.image.at(0, 0) == map.legend[0].color);
   CHECK(std::ranges::count(map.image.pixels, map.legend[1].color) > 4);
@@ -55,7 +55,7 @@ TEST_CASE("a grid answers the shadow rays of its light, others share the pixel")
   Scene scene = floor_under_bulb();
   const StructureMap alone = map_of(scene, "light");
   REQUIRE(alone.legend.size() == 2);
-  CHECK(alone.legend[1].what == "grid of bulb");
+  CHECK(alone.legend[1].label == "grid of bulb");
   CHECK(is_all(alone, alone.legend[1].color));
 
   scene.lights.push_back({"sky", EnvironmentLight{}});

@@ -163,7 +163,7 @@ TEST_CASE("faults are named") {
   CHECK(message(scene).find("'thing': its transform") != std::string::npos);
   scene = scene_of(BoxShape{});
   scene.meshes[0].triangles[3].y = 24;
-  CHECK(message(scene).find("'thing': a triangle names no vertex of its mesh") !=
+  CHECK(message(scene).find("'thing': a triangle has an index that is not a vertex of its mesh") !=
         std::string::npos);
   scene = scene_of(BoxShape{});
   scene.meshes[0].positions[3].y = NAN;
@@ -173,7 +173,7 @@ TEST_CASE("faults are named") {
   CHECK(message(scene).find("'thing': a normal") != std::string::npos);
   scene = scene_of(BoxShape{});
   scene.instances[0].material = 1;
-  CHECK(message(scene).find("'thing': its instance names no material of the scene") !=
+  CHECK(message(scene).find("'thing': its instance refers to a material that does not exist") !=
         std::string::npos);
   // Tiny scenes are fine.
   CHECK(message(scene_of(BoxShape{}, scaling(DVec3{1e-40}))).empty());

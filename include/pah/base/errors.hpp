@@ -1,4 +1,4 @@
-// Errors that a user can mend, with the place to mend.
+// Errors in a user's files, with their place.
 #pragma once
 
 #include <stdexcept>
@@ -36,7 +36,7 @@ class SceneError : public std::runtime_error {
   std::vector<LocatedError> errors_;
 };
 
-// A file that cannot be read or written, for reasons outside the scene.
+// A file that cannot be read or written; the scene itself may be right.
 class FileError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

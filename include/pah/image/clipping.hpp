@@ -6,8 +6,8 @@
 namespace pah {
 
 struct Clipping {
-  double share = 0;     // of the pixels, those of a luminance above 1 at the exposure given
-  double exposure = 0;  // in stops: where a twentieth of the pixels would be
+  double share = 0;     // of pixels whose luminance exceeds 1 at the given exposure
+  double exposure = 0;  // stops; at this exposure a twentieth of the pixels would exceed 1
 };
 
 // `exposure` in stops. Values that are not numbers count as black.

@@ -1,4 +1,4 @@
-// How far pictures are apart.
+// Measures the difference between two pictures.
 #pragma once
 
 #include <pah/image/image.hpp>

@@ -1,4 +1,4 @@
-// Pictures to and from files, by OpenImageIO: written as PNG (8- or 16-bit sRGB), JPEG (8-bit
+// Reads and writes pictures with OpenImageIO. Written formats: PNG (8- or 16-bit sRGB), JPEG (8-bit
 // sRGB), HDR (RGBE), TIFF and EXR (linear floats).
 #pragma once
 
@@ -12,7 +12,7 @@
 
 namespace pah {
 
-// Metadata by name. Formats keep what they have room for.
+// Metadata by name. Each format keeps the entries that it supports.
 using ImageMetadata = std::vector<std::pair<std::string, std::string>>;
 
 struct ImageLayer {
@@ -34,18 +34,19 @@ struct WriteOptions {
 // Throws FileError unless `file` has a known extension and can be written; leaves no trace.
 void check_writable(const std::filesystem::path& file);
 
-// The first layer is the picture; the others go to formats that hold them (EXR) only. Written
-// beside `file` under another name and renamed when complete. The same picture gives the same
+// Writes the layers. The first is the picture; only EXR files hold the others. The file is written
+// under another name beside `file` and renamed when it is complete. The same picture gives the same
 // bytes. Throws FileError, and std::invalid_argument unless all layers are of one size and png_bits
 // is 8 or 16.
 void write_image(const std::filesystem::path& file, const std::vector<ImageLayer>& layers,
                  const WriteOptions& options = {});
 
-// The texts among a picture's metadata, in no certain order. Throws FileError.
+// Reads the text entries of a picture's metadata, in no particular order. Throws FileError.
 [[nodiscard]] ImageMetadata read_metadata(const std::filesystem::path& file);
 
-// R, G and B (or the first three channels, or the first, thrice), linear: 8- and 16-bit colors are
-// taken for sRGB. Throws FileError, also if the picture is larger than `max_bytes` as RGB floats.
+// Reads R, G and B as linear values; without these names the first three channels, or the first
+// channel three times. Integer colors are taken to be sRGB. Throws FileError, also if the picture
+// takes more than `max_bytes` as RGB floats.
 [[nodiscard]] Image read_image(const std::filesystem::path& file,
                                std::uint64_t max_bytes = 4ULL << 30);
 

@@ -25,9 +25,9 @@ struct ImageTexture {
   ColorSpace color_space = ColorSpace::automatic;
   DVec2 scale{1, 1};  // texture coordinates are multiplied by scale, then offset is added
   DVec2 offset{0, 0};
-  bool clamp = false;  // else the image repeats
-  // The picture itself, PNG, JPEG or WebP, if it is part of another file: `file` is only its name
-  // then.
+  bool clamp = false;  // otherwise the image repeats
+  // If the picture is embedded in another file: its bytes (PNG, JPEG or WebP), and `file` is its
+  // name only.
   std::shared_ptr<const std::string> bytes{};
 };
 

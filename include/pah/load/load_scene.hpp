@@ -1,4 +1,4 @@
-// YAML to Scene.
+// Loads a scene file.
 #pragma once
 
 #include <filesystem>
@@ -12,13 +12,13 @@
 
 namespace pah {
 
-// What a scene may ask for; beyond it, a located error.
+// Limits of a scene; exceeding one is a located error.
 struct LoadLimits {
   std::uint64_t scene_bytes = 64ULL << 20;
   std::uint64_t yaml_nodes = 4'000'000;  // after alias expansion
   int nesting = 64;
   std::uint64_t mesh_file_bytes = 4ULL << 30;
-  std::uint64_t triangles = 100'000'000;  // of the whole scene, repeats included
+  std::uint64_t triangles = 100'000'000;  // of the whole scene, copies included
   std::uint64_t instances = 20'000'000;
   std::uint64_t film_pixels = 1ULL << 28;
   std::uint64_t image_bytes = 4ULL << 30;  // of one decoded texture
@@ -27,21 +27,22 @@ struct LoadLimits {
 struct LoadOptions {
   std::vector<std::string> overrides;  // "key.path=value", YAML values
   LoadLimits limits;
-  // Called with each file that the scene names, or one that those name, before it is read; also if
-  // it is not there.
+  // Called with each file that the scene names, directly or through another file, before it is
+  // read, also if it does not exist.
   std::function<void(const std::filesystem::path&)> on_file = {};
-  LoadedFiles* loaded = nullptr;  // of the load before, and for the next; may be none
-  std::optional<int> frame = {};  // of an animation; none: the one that the scene says, or 0
+  LoadedFiles* loaded = nullptr;  // files kept from the last load, for the next one
+  std::optional<int> frame = {};  // of an animation; by default the scene's, or 0
 };
 
 struct LoadedScene {
   Scene scene;
-  std::string hash;       // hex, of the text, the overrides and every file that the scene names
-  bool animated = false;  // another frame may be another picture
-  std::vector<LocatedError> warnings;  // what is left out of the picture, or taken otherwise
+  std::string hash;       // hex; covers the text, the overrides and every file that the scene names
+  bool animated = false;  // the picture may depend on the frame
+  std::vector<LocatedError> warnings;  // what the picture leaves out or shows differently
 };
 
-// Throws SceneError with every error found, FileError if the scene file itself cannot be read.
+// Reads and checks a scene. Throws SceneError with every error found, FileError if the scene file
+// itself cannot be read.
 [[nodiscard]] LoadedScene load_scene(const std::filesystem::path& file,
                                      const LoadOptions& options = {});
 

@@ -1,13 +1,13 @@
-// What the files of scenes hold, kept for the next load.
+// The contents of a scene's files, kept for the next load.
 #pragma once
 
 #include <memory>
 
 namespace pah {
 
-// Given to load_scene() again and again, it spares reading the meshes and checking the pictures
-// that have not changed since the load before, by their sizes and times of modification. Meshes are
-// held twice while a scene is loaded. One load at a time.
+// Pass the same object to load_scene() again to skip the meshes and pictures that did not change
+// since the last load, by size and time of modification. Meshes are held twice while a scene loads.
+// One load at a time.
 class LoadedFiles {
  public:
   LoadedFiles();

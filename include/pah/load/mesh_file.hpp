@@ -1,4 +1,4 @@
-// Mesh files: OBJ, PLY, STL and glTF 2.0 (.gltf, .glb).
+// Reads mesh files: OBJ, PLY, STL and glTF 2.0 (.gltf, .glb).
 #pragma once
 
 #include <filesystem>
@@ -20,18 +20,18 @@ enum class MeshNormals {
 struct MeshFileOptions {
   MeshNormals normals = MeshNormals::file;
   std::uint64_t file_bytes = 4ULL << 30;  // of the file and of each buffer that it names
-  std::uint64_t triangles = 100'000'000;  // and as many vertices, thrice
+  std::uint64_t triangles = 100'000'000;  // and three times as many vertices
   // Files that the mesh file names (buffers, images, .mtl) must lie in or under this folder; empty
   // for the mesh file's own. Links may lead out of it.
   std::filesystem::path folder;
   // Everything as one mesh, the transforms of nodes applied, without materials, cameras and lights.
   bool merged = false;
-  // Called with each further file that geometry and materials are read from, before it is; also if
-  // it is not there. Images are only named.
+  // Called with each further file of geometry or materials before it is read, also if it does not
+  // exist. Images are not read, only named.
   std::function<void(const std::filesystem::path&)> on_file = {};
 };
 
-// What is wrong with a mesh file. Line and column of an OBJ or ASCII PLY or STL file count from 1;
+// An error in a mesh file. Line and column of an OBJ or ASCII PLY or STL file count from 1;
 // 0 means not known. The message does not repeat the file's name.
 class MeshFileError : public std::runtime_error {
  public:
@@ -77,12 +77,12 @@ struct MeshFile {
 // Extensions that can be read, with dots, lower case.
 [[nodiscard]] const std::vector<std::string>& mesh_extensions();
 
-// The file with its materials, textures, cameras and lights, unless `options.merged`. Throws
+// Reads a file with its materials, textures, cameras and lights, unless `options.merged`. Throws
 // MeshFileError.
 [[nodiscard]] MeshFile read_mesh_file(const std::filesystem::path& file,
                                       const MeshFileOptions& options = {});
 
-// Everything in the file as one mesh. Throws MeshFileError.
+// Reads everything in the file as one mesh. Throws MeshFileError.
 [[nodiscard]] Mesh read_mesh(const std::filesystem::path& file, MeshFileOptions options = {});
 
 }  // namespace pah

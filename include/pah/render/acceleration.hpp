@@ -1,4 +1,4 @@
-// From a scene's settings to what answers its rays.
+// Builds the accelerator that a scene's settings ask for.
 #pragma once
 
 #include <memory>
@@ -14,10 +14,10 @@ namespace pah {
 
 struct AcceleratorName {
   std::string_view name;
-  std::string_view what;
+  std::string_view description;
 };
 
-// "bvh", "local", "light", "brute_force" and, where it was found, "embree", and what they are.
+// "bvh", "local", "light", "brute_force" and, if it was found, "embree", with descriptions.
 [[nodiscard]] std::span<const AcceleratorName> accelerator_names();
 
 struct Acceleration {
@@ -30,17 +30,17 @@ struct Acceleration {
   const LightGrids* grids = nullptr;  // the accelerator, if it has grids: those built, in order
 };
 
-// Of `settings` it takes influence_areas, acceleration, film and render; the geometry is the
-// world's, which must outlive the accelerator. `name` is one of accelerator_names(), or empty: then
-// it is local if there is an area to build, else light if a grid pays, as a pilot of a few thousand
-// rays tells, and bvh otherwise. Which grids are built hangs on what takes how long, then. Builds
-// by the calling arena's threads. The accelerator's answers are the same to the last bit whatever
-// the settings, but for Embree's. Throws std::invalid_argument for another name, and as areas_of
-// does.
+// Builds an accelerator over the world's triangles; the world must outlive it. Of `settings` it
+// uses influence_areas, acceleration, film and render. `name` is one of accelerator_names(). If it
+// is empty, the accelerator is "local" if an area is to be built, else "light" if a pilot of a few
+// thousand rays finds that a grid pays, else "bvh"; the choice of grids then depends on measured
+// times. The threads of the calling arena build. All accelerators but Embree's give the same
+// answers to the last bit. Throws std::invalid_argument for another name, and whatever areas_of()
+// throws.
 [[nodiscard]] Acceleration make_acceleration(const World& world, const Scene& settings,
                                              std::string_view name = {});
 
-// A scene's area as accelerators take it.
+// Converts a scene's area to the form that accelerators use.
 [[nodiscard]] LocalArea local_area(const SceneArea& area);
 
 // How acceleration settings have local BVHs built.

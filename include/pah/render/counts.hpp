@@ -1,4 +1,4 @@
-// What a render did, in numbers.
+// Counters of a render.
 #pragma once
 
 #include <array>
@@ -12,8 +12,8 @@ inline constexpr std::array<const char*, 3> ray_kind_names{"camera", "shadow", "
 
 struct RenderCounts {
   std::array<std::uint64_t, 3> rays{};         // by RayKind
-  std::array<TraversalCounts, 3> traversal{};  // zero unless asked for
-  std::uint64_t nan_samples = 0;               // samples dropped: not finite, or negative
+  std::array<TraversalCounts, 3> traversal{};  // zero unless RenderOptions::count_traversal
+  std::uint64_t nan_samples = 0;  // samples that were dropped as not finite or negative
 };
 
 }  // namespace pah

@@ -1,4 +1,4 @@
-// What a render accumulates: double-precision sums per pixel.
+// The film of a render: double-precision sums per pixel.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@ namespace pah {
 // its sum over its count, and tiles never share pixels.
 struct FilmPixel {
   DVec3 sum{0};
-  DVec3 rest{0};  // what rounding has kept from `sum`
+  DVec3 error{0};  // of `sum` by rounding, to be added to it
   DVec3 sum_of_squares{0};
   std::uint32_t samples = 0;
   std::uint32_t hits = 0;  // samples whose camera ray met a surface
@@ -24,27 +24,27 @@ struct FilmPixel {
     add_to_sum(radiance);
     sum_of_squares += radiance * radiance;
   }
-  // Adds another's samples; their radiance without any error, likewise.
+  // Adds the samples of another film's pixel, also without error in the radiance.
   void add(const FilmPixel& other) {
     add_to_sum(other.sum);
-    rest += other.rest;
+    error += other.error;
     sum_of_squares += other.sum_of_squares;
     samples += other.samples;
     hits += other.hits;
   }
-  [[nodiscard]] DVec3 radiance() const { return sum + rest; }  // of all samples
+  [[nodiscard]] DVec3 radiance() const { return sum + error; }  // of all samples
 
  private:
   void add_to_sum(const DVec3& radiance) {
     // Knuth, The Art of Computer Programming 2, 4.2.2, theorem B.
     const DVec3 total = sum + radiance;
     const DVec3 added = total - sum;
-    rest += (sum - (total - added)) + (radiance - added);
+    error += (sum - (total - added)) + (radiance - added);
     sum = total;
   }
 };
 
-// What further layers take of a pixel.
+// The sums of the further layers of a pixel.
 struct FilmFeatures {
   DVec3 albedo{0};  // sums, at the first non-specular surface
   DVec3 normal{0};
@@ -56,11 +56,11 @@ struct FilmFeatures {
 struct Film {
   PixelRect rect;  // the pixels held, in picture coordinates
   std::vector<FilmPixel> pixels;
-  std::vector<FilmFeatures> features;  // of each pixel; none if no layer takes them
+  std::vector<FilmFeatures> features;  // of each pixel; empty if no layer needs them
 
   [[nodiscard]] FilmPixel& at(int x, int y) { return pixels[index(x, y)]; }
   [[nodiscard]] const FilmPixel& at(int x, int y) const { return pixels[index(x, y)]; }
-  // Null if the film keeps none.
+  // Null if the film keeps no features.
   [[nodiscard]] FilmFeatures* features_at(int x, int y) {
     return features.empty() ? nullptr : &features[index(x, y)];
   }
@@ -78,23 +78,23 @@ struct Film {
   }
 };
 
-// Nothing yet of these pixels.
+// A film without samples.
 [[nodiscard]] Film black_film(const PixelRect& rect, bool with_features);
 
-// Adds other samples of the same pixels, or of some of them. The picture is the same to the last
-// bit however samples are split and whatever the order; features and the variance are within the
-// rounding of doubles.
+// Adds other samples of the same pixels, or of some of them. Neither the split of samples nor their
+// order changes a bit of the picture; features and the variance agree within the rounding of
+// doubles.
 void add(Film& sum, const Film& other);
 
-// Whether a film keeps features: some layer that the settings ask for takes them.
+// Whether the settings ask for a layer that needs features.
 [[nodiscard]] bool keeps_features(const FilmSettings& settings);
 
-// Of a film's memory, for each pixel.
+// The memory of a film, in bytes for each pixel.
 [[nodiscard]] std::size_t bytes_per_pixel(const FilmSettings& settings);
 
 // Means. A pixel without samples is black, as are features that the film does not keep.
 [[nodiscard]] Image radiance_of(const Film& film);
-// Of some pixels of the film, without a look at the others.
+// The same for some pixels of the film; reads no others.
 [[nodiscard]] Image radiance_of(const Film& film, const PixelRect& rect);
 [[nodiscard]] Image albedo_of(const Film& film);
 [[nodiscard]] Image normal_of(const Film& film);
@@ -105,7 +105,7 @@ void add(Film& sum, const Film& other);
 // 0 for a pixel with fewer than two samples.
 [[nodiscard]] Image variance_of(const Film& film);
 
-// Per pixel, without those left out for not being finite.
+// The mean number of samples of a pixel, without dropped ones.
 [[nodiscard]] double mean_samples(const Film& film);
 
 // The error that the image's own variance predicts, an upper estimate like the variance. The

@@ -1,4 +1,4 @@
-// Films to and from files, to go on with or to add to others: with all their bits.
+// Reads and writes films without loss, to continue them or to add them to others.
 #pragma once
 
 #include <filesystem>
@@ -11,7 +11,7 @@
 
 namespace pah {
 
-// What a film comes from.
+// The origin of a film.
 struct FilmOrigin {
   std::string version;     // of the program
   std::string scene_hash;  // LoadedScene::hash
@@ -19,12 +19,12 @@ struct FilmOrigin {
   RenderSettings render;
 };
 
-// In what the samples of two films differ, for a message: "the seed is 3, not 4". Samples do not
-// depend on their number, nor on the exposure. Empty: they can go into one film.
+// The settings in which the samples of two films differ, for a message: "the seed is 3, not 4". The
+// number of samples and the exposure do not count. If the result is empty, the films can be added.
 [[nodiscard]] std::vector<std::string> differences(const FilmOrigin& found,
                                                    const FilmOrigin& wanted);
 
-// All that samples depend on besides the program and the scene, in words.
+// Describes all settings on which samples depend, besides the program and the scene.
 [[nodiscard]] std::string describe_settings(const FilmOrigin& origin);
 
 struct FilmFile {
@@ -33,16 +33,16 @@ struct FilmFile {
   Film film;
 };
 
-// With its dot.
+// The extension of film files, with its dot.
 inline constexpr const char* film_extension = ".film";
 
-// Replaces `file` as a whole. Throws FileError, and std::invalid_argument if the film is not one of
-// such settings.
+// Replaces `file` atomically. Throws FileError, and std::invalid_argument if the film does not
+// match the settings of its origin.
 void write_film(const std::filesystem::path& file, const FilmOrigin& origin,
                 const FilmSamples& samples, const Film& film);
 
-// Throws FileError if it is no such file, of another format, cut short or damaged: every change of
-// a single byte is found.
+// Reads a film file. Throws FileError if it is not a film file, has another format, is cut short or
+// damaged; a checksum finds every change of a single byte.
 [[nodiscard]] FilmFile read_film(const std::filesystem::path& file);
 
 }  // namespace pah

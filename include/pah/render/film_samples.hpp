@@ -6,8 +6,8 @@
 
 namespace pah {
 
-// Every pixel has the samples [from, to). All but those of the tiles `behind`, which are indices in
-// RenderSession::tiles(), have the `ahead` next ones besides: a pass was stopped.
+// Every pixel has the samples [from, to). If a pass was stopped, the pixels of all tiles but those
+// in `behind` (indices in RenderSession::tiles()) have `ahead` more.
 struct FilmSamples {
   int from = 0, to = 0;
   int ahead = 0;                    // 0 if no tile is behind

@@ -1,4 +1,4 @@
-// A picture under way: samples are added to its film pass by pass, tile by tile.
+// A render that its caller drives: adds samples to a film pass by pass, tile by tile.
 #pragma once
 
 #include <atomic>
@@ -26,26 +26,25 @@ struct FinishedTile {
 };
 
 struct PassOptions {
-  // Once set, no further tile is begun. Those begun are finished: the more samples a pass has, the
-  // longer that takes.
+  // Once set, no further tile is started. Started tiles are finished, which takes longer the more
+  // samples the pass has.
   const std::atomic<bool>* stop = nullptr;
-  // Called as each tile is finished, by the thread that did it, so by several at a time. It may
-  // read the pixels of that tile, but no others. What it throws ends the pass and is thrown on; the
-  // film may then hold tiles that nobody was told of.
+  // Called when a tile is finished, by the thread that rendered it: several may call at a time. It
+  // may read the pixels of that tile only. An exception ends the pass and is rethrown; the film may
+  // then hold finished tiles that were not reported.
   std::function<void(const FinishedTile&)> on_tile;
 };
 
-// A sample depends on the world, the settings, its pixel and its index alone, and a pixel's samples
-// are summed as they are added. So a film is the same to the last bit however tiles and passes are
-// split and ordered, whatever the number of threads, as long as every pixel gets its samples once
-// and in ascending order: it is for the caller to see to that.
+// A sample depends on the world, the settings, its pixel and its index alone. So neither the split
+// into tiles and passes nor the number of threads changes a bit of the film, as long as every pixel
+// receives each sample once and in ascending order. The caller must ensure this.
 class RenderSession {
  public:
-  // As many samples of a tile are traced together; passes of that many, or multiples, cost least.
+  // The number of samples of a tile that are traced together: passes of a multiple cost least.
   static constexpr int batch_samples = 16;
 
-  // Opens the textures and prepares everything that rays need. The world and the accelerator must
-  // outlive the session; all else is copied. settings.samples is left to whoever calls. Throws
+  // Opens the textures and prepares the lights. The world and the accelerator must outlive the
+  // session; everything else is copied. settings.samples is ignored. Throws
   // std::runtime_error, naming the file, if a texture or an environment cannot be read.
   RenderSession(const World& world, const Accelerator& accelerator, const FilmSettings& film,
                 const RenderSettings& settings, const SessionOptions& options = {});
@@ -53,7 +52,7 @@ class RenderSession {
   RenderSession(RenderSession&& other) noexcept;
   RenderSession& operator=(RenderSession&& other) noexcept;
 
-  // Disjoint; together the pixels of the film. The same for the same film settings.
+  // Disjoint rectangles that cover the film. They depend on the film settings alone.
   [[nodiscard]] std::span<const PixelRect> tiles() const;
 
   // Adds the samples [first_sample, first_sample + count) of every pixel of the tiles, which are
@@ -64,18 +63,18 @@ class RenderSession {
   std::vector<std::size_t> render_pass(std::span<const std::size_t> tiles, int first_sample,
                                        int count, const PassOptions& options = {});
 
-  // Not to be read during a pass, except as PassOptions::on_tile says.
+  // Do not read it during a pass, except as PassOptions::on_tile says.
   [[nodiscard]] const Film& film() const;
 
-  // Goes on from a film of an earlier session; only its caller knows which samples it holds. Not
-  // during a pass. Throws std::invalid_argument, and keeps the film that is there, if the other is
-  // not of the same pixels, or keeps features where this does not.
+  // Replaces the film by one of an earlier session. The caller keeps track of the samples that it
+  // holds. Not during a pass. Throws std::invalid_argument, without a change, if the film covers
+  // other pixels, or only one of the two keeps features.
   void restore(Film film);
 
-  // The film, without a copy, of a session that is not needed any more.
+  // Moves the film out of a session that is no longer needed.
   [[nodiscard]] Film take_film() &&;
 
-  // What this session has done: nothing of what a restored film holds. Not during a pass.
+  // The counters of this session, without those of a restored film. Not during a pass.
   [[nodiscard]] RenderCounts counts() const;
 
  private:

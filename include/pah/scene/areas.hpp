@@ -1,4 +1,4 @@
-// The influence areas of a scene: those it declares, and those its lights and camera suggest.
+// The influence areas of a scene: declared by hand, or derived from its lights and its camera.
 #pragma once
 
 #include <pah/influence/influence_area.hpp>
@@ -17,7 +17,7 @@ struct SceneArea {
   bool declared = false;             // by hand; else derived
 };
 
-// How the rays of a light or a camera lie to each other: only those that meet in a point or run in
+// The shape of the ray bundle of a light or camera. Only rays that meet in a point or run in
 // parallel have influence areas.
 enum class BundleShape { point, parallel, neither };
 [[nodiscard]] BundleShape bundle_shape(const Light& light);
@@ -26,11 +26,11 @@ enum class BundleShape { point, parallel, neither };
 // "plane" or "point", as in the scene language.
 [[nodiscard]] std::string_view type_name(const InfluenceArea& area);
 
-// The declared areas, then the derived ones, if any are asked for. A derived area holds every ray
-// of its bundle that starts in the scene's box (a point light's are shared by up to six), but for
-// what rounding puts outside of a spot's cone. None is derived where rays neither meet in a point
-// nor are parallel, nor where there are no triangles. Throws std::invalid_argument for a
-// declaration that names no light, or one whose rays are not of its kind.
+// Returns the declared areas, then the derived ones if the settings ask for them. A derived area
+// holds every ray of its bundle that starts in the scene's box, except rays that rounding puts
+// outside of a spot's cone; up to six areas share the rays of a point light. No area is derived for
+// a bundle that is neither a point's nor parallel, or without triangles. Throws
+// std::invalid_argument for a declaration whose light does not exist or has another bundle shape.
 [[nodiscard]] std::vector<SceneArea> areas_of(const World& world, const InfluenceSettings& settings,
                                               const FilmSettings& film);
 

@@ -57,9 +57,8 @@ struct Material {
   TextureId normal_map = no_texture;  // tangent space, linear, (r, g, b) * 2 - 1
   float normal_scale = 1;             // multiplies the map's x and y
   ScalarInput opacity{1};             // the share of light that is stopped, in [0, 1]
-  float opacity_cutoff = 0;           // above 0: opacity from there on is 1, below it is 0
-  bool vertex_colors = false;         // the mesh's multiply a principled base color or glass's
-                                      // transmittance
+  float opacity_cutoff = 0;           // if above 0: opacity is 1 from this value on, else 0
+  bool vertex_colors = false;  // multiply a principled base color, or the transmittance of glass
 };
 
 }  // namespace pah

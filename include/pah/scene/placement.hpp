@@ -1,5 +1,5 @@
-// Where the copies of a thing stand: transforms that repeat and scatter an instance. The same
-// numbers give the same transforms on every platform.
+// Transforms that repeat and scatter copies of an instance. The same numbers give the same
+// transforms on every platform.
 #pragma once
 
 #include <cstdint>
@@ -42,11 +42,11 @@ struct ScatterOptions {
   std::uint64_t seed = 0;
   bool turn = true;         // by a random angle about the copy's own up axis
   DVec2 scale{1, 1};        // a uniform random factor between these, both > 0
-  double min_distance = 0;  // between copies' positions; fewer than `count` may then find room
+  double min_distance = 0;  // between copies' positions; fewer than `count` copies may fit then
   bool align = false;       // over a mesh: the copy's up axis follows the surface's normal
 };
 
-// How many copies place() makes: to be checked against a limit before calling it.
+// The number of copies that place() would make, to be checked against a limit first.
 [[nodiscard]] std::uint64_t count_of(const Repeat& repeat);
 
 // One transform a copy. Throws std::invalid_argument on a count of 0 or values that are not finite.

@@ -1,5 +1,5 @@
-// A scene: values that refer to one another by index. io/load_scene.hpp makes one from a file;
-// programs may as well fill one in themselves and hand it to `make_world`.
+// A scene: values that refer to one another by index. load_scene() makes one from a file; a program
+// can also fill one in and pass it to make_world().
 #pragma once
 
 #include <pah/image/texture.hpp>

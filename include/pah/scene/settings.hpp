@@ -1,4 +1,4 @@
-// The settings of a scene: what its film, render, influence_areas and acceleration sections say.
+// The settings of a scene: its film, render, influence_areas and acceleration sections.
 #pragma once
 
 #include <algorithm>
@@ -33,7 +33,7 @@ struct FilmSettings {
   bool albedo = false, normal = false, depth = false, variance = false;  // extra EXR channels
 };
 
-// Those to be rendered.
+// The pixels to be rendered: the crop, within the picture.
 [[nodiscard]] inline PixelRect pixels_of(const FilmSettings& film) {
   PixelRect rect{0, film.width, 0, film.height};
   if (film.crop) {
@@ -45,7 +45,7 @@ struct FilmSettings {
   return rect;
 }
 
-// How light is found; all three agree in the mean.
+// How paths find light; the expected picture is the same for all three.
 enum class Strategy { mis, nee, bsdf };
 
 struct RenderSettings {

@@ -1,5 +1,5 @@
-// Shapes made of formulas, as meshes. Each stands upright (y up) and is centered on the origin
-// unless said otherwise; winding is counterclockwise seen from outside, so geometric normals point
+// Meshes of simple shapes. Each stands upright (y up) and is centered on the origin
+// unless noted; winding is counterclockwise seen from outside, so geometric normals point
 // out. Closed shapes are watertight: vertices that meet at a seam or pole have equal positions to
 // the last bit.
 #pragma once

@@ -1,4 +1,4 @@
-// A scene made ready for rays: all triangles in one float array about an origin amid the scene.
+// A scene made ready for rays: all triangles in one float array, around an origin within the scene.
 #pragma once
 
 #include <pah/geometry/triangles.hpp>
@@ -20,9 +20,9 @@ struct Surface {
 };
 
 struct World {
-  // Scene coordinates are origin + world coordinates. It is subtracted in double, before rounding
-  // to float, so a scene far from its origin loses nothing. It is the scene's center, or the
-  // camera's place or aim where something is so far away that the center is nowhere.
+  // Scene coordinates are origin + world coordinates. The origin is subtracted in double, before
+  // rounding to float, so a scene far from zero loses no precision. It is the scene's center; if
+  // something is so far away that the center is in empty space, it is the camera's position or aim.
   DVec3 origin{0};
   std::vector<Vec3> positions;
   std::vector<Vec3> normals;  // per position; empty if no surface has normals
@@ -39,14 +39,14 @@ struct World {
   std::vector<Material> materials;
   std::vector<Texture> textures;
 
-  std::vector<std::string> warnings;  // of what cannot be shown well, one sentence each
+  std::vector<std::string> warnings;  // about what the picture cannot show well, one sentence each
 
   [[nodiscard]] Triangles triangles() const { return {positions, indices}; }
   [[nodiscard]] std::uint64_t bytes() const;
 };
 
-// Flattens the scene's instances. Instances that mirror (determinant < 0) have their triangles
-// turned over, so that normals keep pointing out. Throws std::length_error beyond 2^32 - 2
+// Flattens the scene's instances. Where a transform mirrors (determinant < 0), triangles are turned
+// over so that normals keep pointing out. Throws std::length_error beyond 2^32 - 2
 // triangles or positions, and std::invalid_argument, naming the mesh, for ids out of range, for a
 // transform without inverse, and for numbers that are not finite once transformed.
 [[nodiscard]] World make_world(const Scene& scene);

@@ -27,10 +27,9 @@ bool is_empty(const PixelRect& rect) { return rect.x0 >= rect.x1 || rect.y0 >= r
 Part read_part(const fs::path& file) {
   FilmFile film = read_film(file);
   if (!film.samples.behind.empty())
-    throw FileError(
-        fmt::format("{} was stopped in the midst of a pass: some of its pixels lack samples; "
-                    "render it again",
-                    file.string()));
+    throw FileError(fmt::format(
+        "{} was stopped in the middle of a pass: some of its pixels lack samples; render it again",
+        file.string()));
   if (film.samples.from == film.samples.to)
     throw FileError(fmt::format("{} has no samples; render it again", file.string()));
   return {file, std::move(film.origin), std::move(film.samples)};
@@ -42,16 +41,16 @@ void check_origin(const Part& part, const Part& first) {
   origin.film.crop = first.origin.film.crop;
   const std::vector<std::string> differing = differences(origin, first.origin);
   if (!differing.empty())
-    throw FileError(fmt::format("{} does not go with {}: {}; parts of one picture agree in these",
-                                part.file.string(), first.file.string(),
-                                fmt::join(differing, ", ")));
+    throw FileError(
+        fmt::format("{} does not match {}: {}; all parts of a picture must agree in this",
+                    part.file.string(), first.file.string(), fmt::join(differing, ", ")));
 }
 
 void check_neighbors(const Part& part, const Part& next) {
   if (next.samples.from > part.samples.to) fail_for_gap(part.samples.to, next.samples.from);
   if (next.samples.from < part.samples.to)
     throw FileError(fmt::format(
-        "{} and {} overlap: both have sample {}; leave out one, or render it anew by --samples",
+        "{} and {} overlap: both have sample {}; leave one out, or render it with other --samples",
         part.file.string(), next.file.string(), next.samples.from));
 }
 
@@ -82,18 +81,18 @@ void check_samples(const Group& group, const Group& first) {
   const int from = group.front()->samples.from, to = group.back()->samples.to;
   const int first_from = first.front()->samples.from, first_to = first.back()->samples.to;
   if (from != first_from || to != first_to)
-    throw FileError(fmt::format("{} has samples {}:{}, and {} has {}:{}; every pixel needs as many",
-                                group.front()->file.string(), from, to,
-                                first.front()->file.string(), first_from, first_to));
+    throw FileError(
+        fmt::format("{} has samples {}:{}, and {} has {}:{}; every pixel needs the same samples",
+                    group.front()->file.string(), from, to, first.front()->file.string(),
+                    first_from, first_to));
 }
 
 void check_apart(const Group& a, const Group& b) {
   const PixelRect both = intersection(rect_of(a), rect_of(b));
   if (is_empty(both)) return;
-  throw FileError(
-      fmt::format("{} and {} overlap: both have the pixels {}; leave out one, or render "
-                  "it anew by --crop",
-                  a.front()->file.string(), b.front()->file.string(), described(both)));
+  throw FileError(fmt::format(
+      "{} and {} overlap: both have the pixels {}; leave one out, or render it with another --crop",
+      a.front()->file.string(), b.front()->file.string(), described(both)));
 }
 
 PixelRect bounds_of(const std::vector<Group>& groups) {
@@ -128,9 +127,8 @@ void check_covered(const std::vector<Group>& groups, const PixelRect& bounds) {
         return !is_empty(intersection(rect_of(group), cell));
       };
       if (std::ranges::none_of(groups, has_cell))
-        throw FileError(
-            fmt::format("the pixels {} are missing; render what is missing by --crop {}",
-                        described(cell), described(cell)));
+        throw FileError(fmt::format("the pixels {} are missing; render them with --crop {}",
+                                    described(cell), described(cell)));
     }
 }
 
@@ -139,8 +137,7 @@ void check_covered(const std::vector<Group>& groups, const PixelRect& bounds) {
 void fail_for_gap(int from, int to) {
   const std::string missing = to - from == 1 ? fmt::format("sample {} is", from)
                                              : fmt::format("samples {} to {} are", from, to - 1);
-  throw FileError(
-      fmt::format("{} missing; render what is missing by --samples {}:{}", missing, from, to));
+  throw FileError(fmt::format("{} missing; render with --samples {}:{}", missing, from, to));
 }
 
 Parts read_parts(const std::vector<fs::path>& files) {

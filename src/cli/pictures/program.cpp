@@ -14,7 +14,7 @@ const cli::PictureFunctions& load_functions() {
   const void* const functions =
       module == nullptr ? nullptr : ::dlsym(module, cli::picture_functions_name);
   if (functions == nullptr)
-    throw FileError("cannot load what reads and writes pictures: " + std::string(::dlerror()));
+    throw FileError("cannot load the picture library: " + std::string(::dlerror()));
   return *static_cast<const cli::PictureFunctions*>(functions);
 }
 

@@ -13,17 +13,17 @@ namespace {
 namespace fs = std::filesystem;
 
 [[noreturn]] void refuse(const fs::path& file, const std::string& why, const std::string& remedy) {
-  throw FileError(fmt::format("cannot go on from {}: {}; {}", file.string(), why, remedy));
+  throw FileError(fmt::format("cannot resume from {}: {}; {}", file.string(), why, remedy));
 }
 
 void check_samples(const fs::path& file, const FilmSamples& held, int from, int samples) {
   if (held.from != from)
-    refuse(file, fmt::format("its samples begin with {}, not {}", held.from, from),
-           "give --samples as before, or start anew without --resume");
+    refuse(file, fmt::format("its first sample is {}, not {}", held.from, from),
+           "give the same --samples, or start over without --resume");
   const int last = held.to + held.ahead;
   if (last > samples)
     refuse(file, fmt::format("it has samples up to {}, more than the {} asked for", last, samples),
-           "ask for as many or more, or start anew without --resume");
+           "ask for at least as many, or start over without --resume");
 }
 
 }  // namespace
@@ -40,12 +40,11 @@ StartedFilm Checkpoint::start(int from) {
   const bool kept = fs::exists(file_, ignored);
   if (options_.resume && kept) return resume(from);
   if (options_.resume && !options_.quiet)
-    say(fmt::format("there is no {} to go on from: starting anew\n", file_.string()));
+    say(fmt::format("{} does not exist; starting from the beginning\n", file_.string()));
   if (options_.interval && kept)
-    warnings_.add(
-        fmt::format("{} is of a render that was not finished, and will be replaced; "
-                    "--resume would go on from it",
-                    file_.string()));
+    warnings_.add(fmt::format(
+        "{} holds an unfinished render and will be replaced; use --resume to continue it",
+        file_.string()));
   return {{}, {from, from, 0, {}}};
 }
 
@@ -54,10 +53,10 @@ StartedFilm Checkpoint::resume(int from) const {
   const std::vector<std::string> differing = differences(kept.origin, origin_);
   if (!differing.empty())
     refuse(file_, fmt::format("{}", fmt::join(differing, ", ")),
-           "render as before, or start anew without --resume");
+           "use the same settings, or start over without --resume");
   check_samples(file_, kept.samples, from, origin_.render.samples);
   if (!options_.quiet)
-    say(fmt::format("going on from {}: {} samples\n", file_.string(),
+    say(fmt::format("resuming from {}: {} samples\n", file_.string(),
                     kept.samples.to - kept.samples.from));
   return {std::move(kept.film), std::move(kept.samples)};
 }
@@ -73,7 +72,7 @@ void Checkpoint::pass_done(const Film& film, const FilmSamples& samples) {
 void Checkpoint::keep(const Film& film, const FilmSamples& samples) {
   const bool empty = samples.to == samples.from && samples.behind.empty();
   if (!options_.interval || empty || !write(film, samples) || options_.quiet) return;
-  say(fmt::format("wrote {}: --resume goes on from it\n", file_.string()));
+  say(fmt::format("wrote {}; --resume continues from it\n", file_.string()));
 }
 
 void Checkpoint::remove() const {
@@ -87,7 +86,7 @@ bool Checkpoint::write(const Film& film, const FilmSamples& samples) {
     write_film(file_, origin_, samples, film);
     return true;
   } catch (const FileError& error) {
-    if (!warned_) warnings_.add(fmt::format("{}; the render goes on", error.what()));
+    if (!warned_) warnings_.add(fmt::format("{}; the render continues", error.what()));
     warned_ = true;
     return false;
   }

@@ -15,7 +15,8 @@ void EarlyPictures::try_to_write(const Film& film, const Progress& progress) {
   try {
     write_(film, progress);
   } catch (const std::exception& error) {
-    if (!warned_) warn_(std::string(error.what()) + "; the render goes on, and tries again later");
+    if (!warned_)
+      warn_(std::string(error.what()) + "; the render continues and will try again later");
     warned_ = true;
   }
 }

@@ -20,8 +20,8 @@ fs::path pattern_of(const RenderArguments& arguments) {
 void require_number(const fs::path& file, const char* option, const IndexRange& frames) {
   if (file.empty() || has_number(file) || frames.to - frames.from == 1) return;
   const std::string with_number = file.stem().string() + "_####" + file.extension().string();
-  throw UsageError(fmt::format("{} {} is one file for {} frames; name one for each: {}", option,
-                               file.string(), frames.to - frames.from,
+  throw UsageError(fmt::format("{} {} names one file for {} frames; name one for each frame: {}",
+                               option, file.string(), frames.to - frames.from,
                                (file.parent_path() / with_number).string()));
 }
 

@@ -42,7 +42,7 @@ void check_memory_for(const FilmSettings& film) {
   constexpr double gigabyte = 1e9;
   throw std::runtime_error(fmt::format(
       "a film of {} x {} pixels takes {:.1f} GB of memory, and {:.1f} GB are available; "
-      "render it in parts, by --crop",
+      "render it in parts with --crop",
       width, height, needed / gigabyte, available / gigabyte));
 }
 

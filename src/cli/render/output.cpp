@@ -30,7 +30,7 @@ fs::path output_of(const RenderArguments& arguments) {
     throw UsageError(fmt::format("-o {} is a directory; name a file in it: {}",
                                  arguments.output.string(),
                                  (arguments.output / named_after_scene).string()));
-  throw UsageError(fmt::format("cannot tell the format of {} by its extension; available are {}",
+  throw UsageError(fmt::format("cannot tell the format of {} from its extension; available are {}",
                                arguments.output.string(), fmt::join(image_extensions(), ", ")));
 }
 
@@ -72,7 +72,7 @@ void leave_out_layers(FilmSettings& film, const fs::path& output, Warnings& warn
   if (lower_extension(output) == ".exr" || is_film_file(output)) return;
   if (film.albedo || film.normal || film.depth || film.variance)
     warnings.add(
-        fmt::format("{} has no room for the 'channels' of film; .exr files have", output.string()));
+        fmt::format("{} cannot hold the 'channels' of film; .exr files can", output.string()));
   film.albedo = film.normal = film.depth = film.variance = false;
 }
 

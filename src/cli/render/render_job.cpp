@@ -70,7 +70,7 @@ std::optional<ExitCode> RenderJob::load() {
   if (arguments_.keep_whole &&
       is_whole(output_, origin_, {first_sample, scene_.render.samples, 0, {}},
                format_of(arguments_))) {
-    if (!arguments_.quiet) say(fmt::format("{} is there already\n", output_.string()));
+    if (!arguments_.quiet) say(fmt::format("{} is already complete\n", output_.string()));
     return ending();
   }
   checkpoint_.emplace(output_, origin_,

@@ -15,7 +15,7 @@ ExitCode report_exception() {
   try {
     throw;
   } catch (const UsageError& error) {
-    say(fmt::format("pahrender: {}\nRun pahrender --help for what there is.\n", error.what()));
+    say(fmt::format("pahrender: {}\nRun pahrender --help to see all options.\n", error.what()));
     return ExitCode::wrong_usage;
   } catch (const SceneError& errors) {
     for (const LocatedError& error : errors.errors()) say(fmt::format("{}\n", format_error(error)));

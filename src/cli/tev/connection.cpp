@@ -56,7 +56,7 @@ Addresses resolve(const TevAddress& address, const TevConnection::OutOfTime& out
   std::future<Addresses> found = task.get_future();
   std::thread(std::move(task)).detach();
   while (found.wait_for(between_tries) != std::future_status::ready)
-    if (out_of_time()) throw std::runtime_error("its name could not be looked up in time");
+    if (out_of_time()) throw std::runtime_error("the lookup of its name timed out");
   return found.get();
 }
 

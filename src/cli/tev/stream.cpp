@@ -49,7 +49,7 @@ void TevStream::run() {
   }
   try {
     if (!send_all(*connection))
-      fail(fmt::format("tev on {} is slow, and does not have all of the picture",
+      fail(fmt::format("tev on {} is too slow: it did not receive the whole picture",
                        to_string(address_)));
   } catch (const std::exception& error) {
     fail(fmt::format("lost tev on {}: {}", to_string(address_), error.what()));

@@ -31,7 +31,7 @@ const PictureFormat& format_of(std::string_view head) {
   if (head.empty()) throw PictureError("it is empty");
   const PictureFormat* format = find_picture_format(head);
   if (format == nullptr)
-    throw PictureError("its first bytes are of no picture format that is read; those are " +
+    throw PictureError("its first bytes match no supported picture format; supported are " +
                        picture_format_names());
   return *format;
 }
@@ -87,7 +87,7 @@ std::unique_ptr<OIIO::Filesystem::IOProxy> prepare_bytes(std::string_view reader
                                                          std::string_view head,
                                                          std::uint64_t max_bytes) {
   if (given != nullptr && !reads_from_memory(reader))
-    throw PictureError("a picture inside of another file has to be PNG, JPEG or WebP");
+    throw PictureError("a picture inside another file must be PNG, JPEG or WebP");
   if (reader == "tiff") return open_tiff_without_metadata(file);
   if (reader == "bmp") check_claim(claimed_bmp_size(head), max_bytes);
   if (!reads_from_memory(reader)) return nullptr;
@@ -130,7 +130,7 @@ OpenPicture open_picture(const fs::path& file, std::uint64_t max_bytes,
   } catch (const PictureError&) {
     throw;
   } catch (const std::bad_alloc&) {
-    throw PictureError("it takes more memory than there is");
+    throw PictureError("there is not enough memory for it");
   } catch (const std::exception& error) {
     throw PictureError(error.what());
   }

@@ -102,7 +102,7 @@ float TextureStore::scalar(const ScalarInput& input, Vec2 uv, float footprint) c
 
 Image TextureStore::image(TextureId id) const {
   const auto* texture = std::get_if<ImageTexture>(&impl_->textures[id]);
-  if (!texture) throw TextureError(id, "a checkerboard is no image");
+  if (!texture) throw TextureError(id, "a checkerboard is not an image");
   try {
     return impl_->images->read_whole(id, *texture);
   } catch (const std::exception& error) {

@@ -50,7 +50,7 @@ class StlReader {
       end_triangle();
     }
     if (file_.left() > 0)
-      warnings.push_back(std::to_string(file_.left()) + " bytes behind the " +
+      warnings.push_back(std::to_string(file_.left()) + " bytes after the " +
                          std::to_string(count) + " triangles are left out");
     return std::move(mesh_);
   }

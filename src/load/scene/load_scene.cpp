@@ -46,7 +46,7 @@ void describe_animation(SceneReading& reading, const YamlNode* /*node*/) {
   (void)read_keyframes(reading.context, nullptr, 0);
 }
 
-// The order counts: whatever names something is read after it.
+// The order matters: a section is read after those that it refers to.
 void read_sections(SceneReading& reading, MapReader& map) {
   using Section = std::pair<const char*, void (*)(SceneReading&, const YamlNode*)>;
   for (const auto& [key, read] : {Section{"camera", read_camera},
@@ -95,7 +95,7 @@ bool NameTable::add(ReadContext& context, const std::string& name, std::uint32_t
     return true;
   }
   const Mark& first = entry->second.mark;
-  context.errors.add(mark, "duplicate " + what_ + " name '" + name + "'" +
+  context.errors.add(mark, "duplicate " + kind_ + " name '" + name + "'" +
                                (first.override_index >= 0 || first.line == 0
                                     ? ""
                                     : "; the first is on line " + std::to_string(first.line)));
@@ -113,20 +113,20 @@ std::optional<std::uint32_t> NameTable::find(ReadContext& context, const YamlNod
   const auto found = entries_.find(text);
   if (found != entries_.end()) return found->second.id;
   const std::string near = suggestion(text, names_);
-  context.errors.add(node.mark, "unknown " + what_ + " '" + text + "' in " + name +
+  context.errors.add(node.mark, "unknown " + kind_ + " '" + text + "' in " + name +
                                     (names_.empty() ? "; there are none" : near) +
-                                    (what_ == "mesh" && near.empty()
-                                         ? ": a mesh has to come before those that name it"
+                                    (kind_ == "mesh" && near.empty()
+                                         ? ": a mesh must come before the meshes that name it"
                                          : ""));
   return {};
 }
 
-std::string title_of(const YamlNode& node, const std::string& what, std::size_t index) {
+std::string title_of(const YamlNode& node, const std::string& kind, std::size_t index) {
   const YamlEntry* name = node.kind == YamlNode::Kind::map ? node.find("name") : nullptr;
   return name != nullptr && name->value->kind == YamlNode::Kind::scalar &&
                  !name->value->text.empty()
-             ? what + " '" + name->value->text + "'"
-             : what + " " + std::to_string(index + 1);
+             ? kind + " '" + name->value->text + "'"
+             : kind + " " + std::to_string(index + 1);
 }
 
 Language describe_language() {
@@ -172,7 +172,7 @@ void refuse_other_formats(const fs::path& file) {
 // What is missing for a picture in which there is something to see.
 void warn_of_gaps(const Scene& scene, ErrorCollector& errors) {
   if (scene.lights.empty()) errors.warn({}, "the scene has no light: the picture will be black");
-  if (scene.instances.empty()) errors.warn({}, "the scene has no mesh: there is nothing to light");
+  if (scene.instances.empty()) errors.warn({}, "the scene has no mesh: the picture will be empty");
 }
 
 }  // namespace

@@ -40,7 +40,7 @@ class TreeBuilder final : public YAML::EventHandler {
   }
   void OnAlias(const YAML::Mark& mark, YAML::anchor_t anchor) override {
     const YamlRef node = anchor < anchors_.size() ? anchors_[anchor] : nullptr;
-    if (node == nullptr) throw YamlError(at(mark), "this alias stands inside what it stands for");
+    if (node == nullptr) throw YamlError(at(mark), "this alias refers to a value that contains it");
     add(node, at(mark));
   }
   void OnScalar(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,

@@ -45,7 +45,7 @@ Facts facts_of(const FilmOrigin& origin) {
       {"roulette_depth", std::to_string(render.roulette_depth)},
       {"the filter", filter_names.at(static_cast<std::size_t>(film.filter))},
       {"the radius of the filter", fmt::format("{}", film.filter_radius)},
-      {"what is kept besides the picture", keeps_features(film) ? "features" : "nothing"},
+      {"the layers kept beside the picture", keeps_features(film) ? "features" : "nothing"},
   };
 }
 
@@ -87,7 +87,7 @@ void put_vector(WordWriter& writer, const DVec3& vector) {
 void put_film(WordWriter& writer, const Film& film) {
   for (const FilmPixel& pixel : film.pixels) {
     put_vector(writer, pixel.sum);
-    put_vector(writer, pixel.rest);
+    put_vector(writer, pixel.error);
     put_vector(writer, pixel.sum_of_squares);
     writer.put(pixel.samples | std::uint64_t{pixel.hits} << 32);
   }
@@ -106,7 +106,7 @@ void check_film(const FilmOrigin& origin, const Film& film) {
   const std::size_t pixels = pixel_count(pixels_of(origin.film));
   if (described(film.rect) != described(pixels_of(origin.film)) || film.pixels.size() != pixels ||
       film.features.size() != (keeps_features(origin.film) ? pixels : 0))
-    throw std::invalid_argument("a film to be written is not one of its settings");
+    throw std::invalid_argument("the film does not match its settings");
 }
 
 PixelRect read_rect(WordReader& reader, int width, int height) {
@@ -167,7 +167,7 @@ DVec3 read_vector(WordReader& reader) {
 FilmPixel read_pixel(WordReader& reader) {
   FilmPixel pixel;
   pixel.sum = read_vector(reader);
-  pixel.rest = read_vector(reader);
+  pixel.error = read_vector(reader);
   pixel.sum_of_squares = read_vector(reader);
   const std::uint64_t counts = reader.word();
   pixel.samples = static_cast<std::uint32_t>(counts);
@@ -226,10 +226,10 @@ void write_film(const fs::path& file, const FilmOrigin& origin, const FilmSample
 
 FilmFile read_film(const fs::path& file) {
   WordReader reader(file);
-  if (reader.word() != magic) reader.fail("is not a film of pahrender's");
+  if (reader.word() != magic) reader.fail("is not a pahrender film");
   if (const std::uint64_t found = reader.word(); found != format_version)
-    reader.fail(
-        fmt::format("is of format {}; this pahrender reads format {}", found, format_version));
+    reader.fail(fmt::format("has format {}; this version of pahrender reads format {}", found,
+                            format_version));
   FilmFile result;
   result.origin = read_origin(reader);
   const std::uint64_t behind = read_samples(reader, result.samples);

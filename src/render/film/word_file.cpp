@@ -130,8 +130,8 @@ void WordReader::fill() {
   if (buffer_.empty()) fail("is cut short");
 }
 
-void WordReader::fail(const std::string& what) const {
-  throw FileError(file_.string() + " " + what);
+void WordReader::fail(const std::string& fault) const {
+  throw FileError(file_.string() + " " + fault);
 }
 
 void WordReader::fail_as_damaged() const { fail("is damaged: its bytes are not those written"); }

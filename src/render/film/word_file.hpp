@@ -58,7 +58,7 @@ class WordReader {
   // Whether so many words follow, and then the checksum.
   void check_left(std::uint64_t words) const;
   void check_end();
-  [[noreturn]] void fail(const std::string& what) const;
+  [[noreturn]] void fail(const std::string& fault) const;
   [[noreturn]] void fail_as_damaged() const;
 
  private:

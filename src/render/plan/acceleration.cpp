@@ -12,11 +12,10 @@ namespace {
 
 constexpr std::array<AcceleratorName, 5> names{{
     {"bvh", "one BVH over all triangles"},
-    {"local", "that, and a local BVH for each influence area"},
-    {"light",
-     "one BVH, and a grid in the space of each light that is\na point or has one direction"},
+    {"local", "bvh, and a local BVH for each influence area"},
+    {"light", "bvh, and a grid for each light that is a point or has\none direction"},
     {"brute_force", "no structure: every ray tests every triangle"},
-    {"embree", "Embree's BVH, for comparison: the picture may differ\nin last bits"},
+    {"embree", "Embree's BVH, for comparison: the picture may differ\nin the last bits"},
 }};
 constexpr std::string_view bvh = names[0].name;
 constexpr std::string_view local = names[1].name;
@@ -103,15 +102,15 @@ Acceleration make_acceleration(const World& world, const Scene& settings, std::s
     use_areas(made, world, settings.acceleration);
   } else {
     for (AreaPlan& plan : made.plans)
-      if (plan.build) plan = {false, "the accelerator asked for knows no areas"};
+      if (plan.build) plan = {false, "the chosen accelerator does not use influence areas"};
   }
   if (made.name == light) {
     use_grids(made, world, settings, !name.empty());
     // With no grid it is nothing else.
     if (name.empty() && made.grids->reports().empty()) made.name = bvh;
   } else {
-    made.grid_plans =
-        plans_without_grids(world, why_none.empty() ? "the accelerator knows no grids" : why_none);
+    made.grid_plans = plans_without_grids(
+        world, why_none.empty() ? "the chosen accelerator does not use grids" : why_none);
   }
   if (made.accelerator != nullptr) return made;
   made.accelerator = made.name == bvh           ? make_global_bvh(world.triangles())

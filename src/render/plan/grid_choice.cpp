@@ -68,13 +68,13 @@ std::string_view no_grids(const World& world, const Scene& settings) {
   constexpr std::size_t fewest_triangles = 4096;
   if (!settings.influence_areas.derive) return "the scene asks for no derived areas";
   if (world.triangles().size() < fewest_triangles)
-    return "the BVH of so few triangles is as fast as a grid";
+    return "with so few triangles the BVH is as fast as a grid";
   if (settings.render.strategy == Strategy::bsdf) return "no shadow rays are sent";
   const auto lets_through = [&](const Surface& surface) {
     return is_masked(world.materials[surface.material]);
   };
   if (std::ranges::any_of(world.surfaces, lets_through))
-    return "surfaces let light through, so shadow rays look for nearest hits";
+    return "some surfaces are partly transparent, so shadow rays need nearest hits";
   return {};
 }
 

@@ -45,8 +45,8 @@ std::string levels_text(const TreeSummary& tree, const std::optional<SeenOverlap
 std::string bvh_text(const BvhReport& bvh) {
   const TreeSummary& tree = bvh.tree;
   std::string text = fmt::format("\nBVH {} ({})\n", bvh.name, bvh.heuristic);
-  const auto line = [&](std::string_view name, const std::string& what) {
-    text += fmt::format("  {:18}{}\n", name, what);
+  const auto line = [&](std::string_view name, const std::string& value) {
+    text += fmt::format("  {:18}{}\n", name, value);
   };
   line("triangles", fmt::format("{}", tree.triangles));
   line("nodes", fmt::format("{}, of which {} leaves; {} eight-wide", tree.nodes, tree.leaves,

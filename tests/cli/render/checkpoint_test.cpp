@@ -188,7 +188,7 @@ TEST_CASE("a checkpoint of another render is refused, and what differs is named"
   check_refused(many + Words{"--width", "64"}, "the width is 32, not 64");
   check_refused(many + Words{"--crop", "0,8,0,8"}, "the crop is 0,32,0,24, not 0,8,0,8");
   check_refused(many + Words{"-D", "render.max_depth=3"}, "max_depth is 4, not 3");
-  check_refused(many + layers, "what is kept besides the picture is nothing, not features");
+  check_refused(many + layers, "the layers kept beside the picture is nothing, not features");
 
   pah::FilmFile film = pah::read_film(checkpoint);
   pah::write_film(checkpoint, film.origin, {0, 5, 0, {}}, film.film);
@@ -213,7 +213,7 @@ TEST_CASE("a damaged checkpoint is refused") {
   write_file(checkpoint, bytes.substr(0, bytes.size() / 2));
   check_refused(many, "is cut short");
   write_file(checkpoint, "not a film");
-  check_refused(many, "is not a film of pahrender's");
+  check_refused(many, "is not a pahrender film");
 }
 
 TEST_CASE("a checkpoint that cannot be written is warned of once, and the picture is there") {

@@ -71,13 +71,13 @@ TEST_CASE("a grid is built where it is expected to save more than it costs") {
 TEST_CASE("a grid is not built without rays") {
   const GridPlan plan = plan_grid(0, point, {}, {.triangles = 1000});
   CHECK(!plan.build);
-  CHECK(plan.reason == "no ray of the pilot goes to it");
+  CHECK(plan.reason == "none of the pilot's rays goes to it");
 }
 
 TEST_CASE("a grid is not built if its rays are cheap in the BVH") {
   GridPilot cheap = pilot;
   cheap.cost = 3.9;
-  CHECK(plan_grid(0, point, cheap, {}).reason == "its rays cost no more in the BVH");
+  CHECK(plan_grid(0, point, cheap, {}).reason == "the BVH answers its rays at least as fast");
   CHECK(!plan_grid(0, point, cheap, {}).build);
   // Rays to a sun with a size cross cells, and those to a spot come from a part of the scene.
   const ExactBundle spot = PointBundle{.sine = 0.5F};
@@ -90,7 +90,7 @@ TEST_CASE("a grid is not built if its rays are cheap in the BVH") {
 }
 
 TEST_CASE("a grid is not built for few rays, of which threads make fewer") {
-  const std::string_view too_few = "so few rays are expected that it would cost more than it saves";
+  const std::string_view too_few = "too few rays are expected: it would cost more than it saves";
   GridPilot few = pilot;
   few.expected_rays = 3.0e5;
   CHECK(plan_grid(0, point, few, {.bvh_build_seconds = 2}).reason == too_few);
@@ -126,7 +126,7 @@ TEST_CASE("a grid that was built stays if it is faster and fits") {
   plan = planned;
   measure_grid(plan, pilot.seconds, 3, 1000, at);
   CHECK(!plan.build);
-  CHECK(plan.reason == "once built, the pilot's rays were no faster");
+  CHECK(plan.reason == "the pilot's rays were no faster once it was built");
 }
 
 TEST_CASE("there are no grids where none can be of use") {
@@ -137,7 +137,7 @@ TEST_CASE("there are no grids where none can be of use") {
   }
   SECTION("few triangles") {
     scene.meshes = {make_mesh(SphereShape{})};
-    check_reason(scene, "the BVH of so few triangles is as fast as a grid");
+    check_reason(scene, "with so few triangles the BVH is as fast as a grid");
   }
   SECTION("no shadow rays") {
     scene.render.strategy = Strategy::bsdf;
@@ -145,12 +145,12 @@ TEST_CASE("there are no grids where none can be of use") {
   }
   SECTION("opacity") {
     scene.materials[0].opacity.value = 0.5F;
-    check_reason(scene, "surfaces let light through, so shadow rays look for nearest hits");
+    check_reason(scene, "some surfaces are partly transparent, so shadow rays need nearest hits");
   }
   SECTION("a texture of opacity") {
     scene.textures.emplace_back(CheckerTexture{});
     scene.materials[0].opacity.texture = 0;
-    check_reason(scene, "surfaces let light through, so shadow rays look for nearest hits");
+    check_reason(scene, "some surfaces are partly transparent, so shadow rays need nearest hits");
   }
   SECTION("a material that nothing has") {
     scene.materials.push_back({"mask", DiffuseMaterial{}});

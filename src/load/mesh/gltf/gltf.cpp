@@ -107,7 +107,7 @@ void import_gltf(const std::filesystem::path& file, const MeshFileOptions& optio
     document.on_file = options.on_file;
     Importer(document, options, out).run();
   } catch (const Json::exception&) {
-    throw MeshFileError("a value in it is not of the kind that glTF asks for");
+    throw MeshFileError("a value has a type that glTF does not allow");
   }
 }
 

@@ -24,7 +24,7 @@ std::uint64_t number(const Json& object, const char* key, std::uint64_t otherwis
   const auto found = object.find(key);
   if (found == object.end()) return otherwise;
   if (!found->is_number_unsigned() || found->get<std::uint64_t>() > (1ULL << 48))
-    throw MeshFileError("'" + std::string(key) + "' is not a sensible number");
+    throw MeshFileError("'" + std::string(key) + "' is not a valid number");
   return found->get<std::uint64_t>();
 }
 

@@ -9,8 +9,8 @@ bool finite(const Vec3& v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
-[[noreturn]] void fail_at(std::size_t vertex, const char* what) {
-  throw MeshFileError("the " + std::string(what) + " of vertex " + std::to_string(vertex) +
+[[noreturn]] void fail_at(std::size_t vertex, const char* value) {
+  throw MeshFileError("the " + std::string(value) + " of vertex " + std::to_string(vertex) +
                       " is not finite");
 }
 

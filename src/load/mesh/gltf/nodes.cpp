@@ -137,8 +137,7 @@ std::vector<std::size_t> check_nodes(const Json& nodes) {
   for (std::size_t i = 0; i < nodes.size(); ++i)
     for (const Json& below : list(nodes[i], "children")) {
       if (!below.is_number_unsigned() || below.get<std::uint64_t>() >= nodes.size())
-        throw MeshFileError("node " + std::to_string(i) +
-                            " has a child that is no node of the file");
+        throw MeshFileError("node " + std::to_string(i) + " has a child that does not exist");
       std::size_t& above = parent[below.get<std::size_t>()];
       if (above != nodes.size())
         throw MeshFileError("node " + below.dump() + " has more than one parent");
@@ -150,7 +149,7 @@ std::vector<std::size_t> check_nodes(const Json& nodes) {
     int depth = 0;
     for (std::size_t at = i; at != nodes.size(); at = parent[at])
       if (++depth > max_depth)
-        throw MeshFileError("the nodes are nested in a circle, or more than " +
+        throw MeshFileError("the nodes form a cycle, or are nested more than " +
                             std::to_string(max_depth) + " deep");
   }
   return roots;
@@ -169,7 +168,7 @@ std::vector<GltfPlace> read_gltf_nodes(const Json& document, MeshFile& out) {
     roots.clear();
     for (const Json& root : list(scene, "nodes")) {
       if (!root.is_number_unsigned() || root.get<std::uint64_t>() >= nodes.size())
-        throw MeshFileError("the scene has a node that is none of the file");
+        throw MeshFileError("the scene names a node that does not exist");
       roots.push_back(root.get<std::size_t>());
     }
   }

@@ -262,7 +262,7 @@ void read_mtl_materials(const ObjFile& obj, const fs::path& file, const MeshFile
       }
       const auto unused = MtlReader(library, limit, options.file_bytes, textures, materials).read();
       if (!unused.empty())
-        out.warnings.push_back(name + ": " + joined(unused) + " cannot be shown and is left out");
+        out.warnings.push_back(name + ": " + joined(unused) + " is not supported and is left out");
     }
   std::vector<std::string> unknown;
   for (const std::string& name : obj.materials) {

@@ -253,7 +253,7 @@ class PlyReader {
                         : use == ListUse::uvs   ? 2 * max_polygon_corners
                                                 : static_cast<double>(file_.size());
     if (!(length >= 0 && length <= most && length == std::floor(length)))
-      fail(which() + " has a list of no sensible length", word_);
+      fail(which() + " has a list of invalid length", word_);
     for (double i = 0; i < length; ++i) {
       if (use == ListUse::none)
         skip_number(property.type);
@@ -315,13 +315,14 @@ class PlyReader {
     if (text_) {
       while (const auto line = file_.line())
         if (!Words(*line).next().empty()) {
-          warnings.push_back("line " + std::to_string(file_.line_number()) +
-                             " and what follows is more than the header tells of, and left out");
+          warnings.push_back(
+              "line " + std::to_string(file_.line_number()) +
+              " and everything after it exceeds what the header declares, and is left out");
           break;
         }
     } else if (file_.left() > 0) {
       warnings.push_back(std::to_string(file_.left()) +
-                         " bytes are more than the header tells of, and left out");
+                         " bytes exceed what the header declares, and are left out");
     }
     if (corner_uvs_.empty()) return;
     // Every corner is a vertex.

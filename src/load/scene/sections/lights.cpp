@@ -28,7 +28,7 @@ SpotLight read_spot(MapReader& map) {
   SpotLight light;
   map.optional("position", light.position);
   if (!read_direction(map, light.direction) && !map.recording())
-    map.context().errors.warn(map.mark(), map.title() + " has no direction: it shines down");
+    map.context().errors.warn(map.mark(), map.title() + " has no direction; it shines down");
   read_radiometry(map, "intensity", light.intensity);
   map.optional("angle", light.angle, NumberRange{0, 90, true, false});
   map.optional("blend", light.blend, unit_range);
@@ -63,31 +63,33 @@ EnvironmentLight read_environment(SceneReading& reading, MapReader& map) {
 }
 
 void read_light(SceneReading& reading, const YamlNode* node, const std::string& title) {
-  read_variant(reading.context, node, "light", title, "type",
-               {"point", "spot", "directional", "area", "environment"}, 5,
-               [&](MapReader& map, std::size_t type) {
-                 Scene& scene = reading.scene;
-                 const auto id = static_cast<LightId>(scene.lights.size());
-                 Light light;
-                 const bool named = map.optional("name", light.name);
-                 if (!named) light.name = title;
-                 if (named && light.name == "camera")
-                   map.error("name",
-                             "no light can be named 'camera': influence areas name the camera so");
-                 if (type == 0) light.model = read_point(map);
-                 if (type == 1) light.model = read_spot(map);
-                 if (type == 2) light.model = read_directional(map);
-                 if (type == 3) light.model = read_area(map);
-                 if (type == 4) light.model = read_environment(reading, map);
-                 const std::string name = light.name;
-                 scene.lights.push_back(std::move(light));
-                 if (named) reading.lights.add(reading.context, name, id, map.mark_of("name"));
-                 if (type != 3) return;
-                 GeometryUse use{name, read_material_name(reading, map), id};
-                 // What emits reflects nothing unless it says so.
-                 if (!use.material && !map.recording()) use.material = unnamed_material(reading, 0);
-                 read_geometry(reading, map, use);
-               });
+  read_variant(
+      reading.context, node, "light", title, "type",
+      {"point", "spot", "directional", "area", "environment"}, 5,
+      [&](MapReader& map, std::size_t type) {
+        Scene& scene = reading.scene;
+        const auto id = static_cast<LightId>(scene.lights.size());
+        Light light;
+        const bool named = map.optional("name", light.name);
+        if (!named) light.name = title;
+        if (named && light.name == "camera")
+          map.error(
+              "name",
+              "a light cannot be named 'camera': influence areas use this name for the camera");
+        if (type == 0) light.model = read_point(map);
+        if (type == 1) light.model = read_spot(map);
+        if (type == 2) light.model = read_directional(map);
+        if (type == 3) light.model = read_area(map);
+        if (type == 4) light.model = read_environment(reading, map);
+        const std::string name = light.name;
+        scene.lights.push_back(std::move(light));
+        if (named) reading.lights.add(reading.context, name, id, map.mark_of("name"));
+        if (type != 3) return;
+        GeometryUse use{name, read_material_name(reading, map), id};
+        // What emits reflects nothing unless it says so.
+        if (!use.material && !map.recording()) use.material = unnamed_material(reading, 0);
+        read_geometry(reading, map, use);
+      });
 }
 
 }  // namespace

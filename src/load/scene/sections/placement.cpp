@@ -129,9 +129,9 @@ Transforms read_scatter(SceneReading& reading, const YamlNode* node, const std::
       copies = scatter(size, options);
     }
     if (options.min_distance > 0 && valid && copies.size() < options.count && !map.recording())
-      reading.context.errors.warn(
-          map.mark_of("count"), fmt::format("only {} of {} copies find room at this 'min_distance'",
-                                            copies.size(), options.count));
+      reading.context.errors.warn(map.mark_of("count"),
+                                  fmt::format("only {} of {} copies fit at this 'min_distance'",
+                                              copies.size(), options.count));
     copies = moved(reading.context, map, std::move(copies));
   });
   return copies;

@@ -18,7 +18,7 @@ namespace pah {
 // Ids by name, for one sort of thing.
 class NameTable {
  public:
-  explicit NameTable(std::string what) : what_(std::move(what)) {}
+  explicit NameTable(std::string kind) : kind_(std::move(kind)) {}
 
   // False, and an error at `mark`, if there is one of this name already.
   bool add(ReadContext& context, const std::string& name, std::uint32_t id, const Mark& mark);
@@ -33,7 +33,7 @@ class NameTable {
     std::uint32_t id;
     Mark mark;
   };
-  std::string what_;
+  std::string kind_;
   std::unordered_map<std::string, Entry> entries_;
   std::vector<std::string> names_;  // in order, for suggestions
 };
@@ -75,7 +75,7 @@ struct SceneReading {
 };
 
 // "mesh 'floor'", or "mesh 3" (from 1) if it has no name.
-[[nodiscard]] std::string title_of(const YamlNode& node, const std::string& what,
+[[nodiscard]] std::string title_of(const YamlNode& node, const std::string& kind,
                                    std::size_t index);
 
 void read_camera(SceneReading& reading, const YamlNode* node);

@@ -26,9 +26,9 @@ constexpr std::array<NamedColor, 8> colors{{{"gray", {128, 128, 128}},
 
 }  // namespace
 
-LegendColor legend_color(std::string what, std::size_t index) {
+LegendColor legend_color(std::string label, std::size_t index) {
   const NamedColor& named = colors[index == 0 ? 0 : 1 + (index - 1) % (colors.size() - 1)];
-  LegendColor color{std::move(what), named.name};
+  LegendColor color{std::move(label), named.name};
   for (int i = 0; i < 3; ++i)
     color.color[i] =
         linear_from_srgb(static_cast<float>(named.encoded[static_cast<std::size_t>(i)]) / 255);
@@ -38,7 +38,7 @@ LegendColor legend_color(std::string what, std::size_t index) {
 std::string legend_text(const std::vector<LegendColor>& legend) {
   std::string text;
   for (const LegendColor& color : legend)
-    text += fmt::format("  {:10}{}\n", color.name, color.what);
+    text += fmt::format("  {:10}{}\n", color.name, color.label);
   return text;
 }
 
