@@ -8,7 +8,7 @@ namespace pah {
 
 namespace {
 
-// Boxes of eight triangles, laid out for the compiler to test side by side.
+// The boxes of eight triangles, laid out so that the compiler vectorizes their tests.
 struct BoxGroup {
   static constexpr std::size_t size = 8;
   std::array<std::array<std::array<float, size>, 2>, 3> planes;  // [axis][min, max][triangle]
@@ -65,8 +65,7 @@ class BruteForce final : public Accelerator {
   [[nodiscard]] AcceleratorMemory memory() const override { return {}; }
 
  private:
-  // Calls `test(i)` for every triangle whose own padded box the ray meets (cheap for eight at a
-  // time), until it returns true.
+  // Calls `test(i)` for every triangle whose padded box the ray meets, until it returns true.
   template <typename Test>
   void visit(const PreparedRay& ray, const Test& test) const {
     for (std::size_t group = 0; group < boxes_.size(); ++group) {

@@ -82,10 +82,10 @@ TEST_CASE("nodes of less area, chance or cost than a rule says are leaves") {
       const bool by_bundle = heuristic == Heuristic::projected_area;
       const auto probability = [&](const Aabb& box) {
         return by_bundle ? hit_probability(area, box)
-                         : double{SurfaceArea{}.area(box)} / double{SurfaceArea{}.area(root)};
+                         : double{SurfaceArea{}(box)} / double{SurfaceArea{}(root)};
       };
       const auto area_of = [&](const Aabb& box) {
-        return by_bundle ? projected_area(area, box) : 2 * double{SurfaceArea{}.area(box)};
+        return by_bundle ? projected_area(area, box) : 2 * double{SurfaceArea{}(box)};
       };
       // Measures are floats.
       const double least = 1 - 1e-6;

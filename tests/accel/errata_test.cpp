@@ -113,7 +113,7 @@ double printed_cost_of_all(const BinaryTree& tree) {
 
 // The measure of rays that all meet every box.
 struct Always {
-  [[nodiscard]] float area(const Aabb& /*box*/) const { return 1; }
+  [[nodiscard]] float operator()(const Aabb& /*box*/) const { return 1; }
 };
 
 // Section 1.3.3; the surface area is twice that.
@@ -302,7 +302,7 @@ TEST_CASE("What all rays hit costs the same by surface and by projected area") {
   // Six faces of 4; one of them is what rays along an axis see.
   const double surface = 24, seen = 4;
   CHECK(printed_surface_area(cube) == surface / 2);
-  CHECK(double{along_z.area(cube)} == Approx(seen));
+  CHECK(double{along_z(cube)} == Approx(seen));
   // Not over the root's, the printed area makes of one block a cost of three.
   CHECK(printed_surface_area(cube) * 1.2 == Approx(3 * seen * 1.2));
 }

@@ -197,7 +197,7 @@ TEST_CASE("an octree is as deep as it is told, and of bounded size") {
   }
   const AreaOctree chosen(regions, order);
   CHECK(chosen.depth() >= 3);
-  CHECK(chosen.nodes() <= AreaOctree::usual_nodes);
+  CHECK(chosen.nodes() <= AreaOctree::default_max_nodes);
   const AreaOctree none({}, {});
   CHECK(none.leaf_of(Vec3(0)).empty());
 }

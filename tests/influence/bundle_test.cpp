@@ -184,8 +184,8 @@ TEST_CASE("The expected area of a spread bundle is the mean over its directions"
     const PlaneArea wide = make_plane_area(-1000.0 * glm::normalize(d), d, DVec2(1000), 2000);
     mean += projected_area(wide, box) / 1000;
   }
-  CHECK(spread.area(box) == Approx(mean));
-  CHECK(spread.area(Aabb{}) == 0);
+  CHECK(spread(box) == Approx(mean));
+  CHECK(spread(Aabb{}) == 0);
   // One direction: the thesis's area; its sum of three parallelograms at one vertex agrees.
   const DVec3 d = glm::normalize(DVec3(1, -2, 0.5));
   const DMat3 axes = orthonormal_basis(d);
@@ -198,9 +198,9 @@ TEST_CASE("The expected area of a spread bundle is the mean over its directions"
     const DVec2 &u = e[k], &v = e[(k + 1) % 3];
     parallelograms += std::abs(u.x * v.y - u.y * v.x);
   }
-  CHECK(ParallelBundleArea(glm::abs(d)).area(box) == Approx(parallelograms));
+  CHECK(ParallelBundleArea(glm::abs(d))(box) == Approx(parallelograms));
   const HitProbability probability(down(PointMeasure::plane));
-  CHECK(probability.area(Aabb{{-0.5F, 0, -0.5F}, {0.5F, 4, 0.5F}}) == Approx(0.25));
+  CHECK(probability(Aabb{{-0.5F, 0, -0.5F}, {0.5F, 4, 0.5F}}) == Approx(0.25));
 }
 
 TEST_CASE("Directions are affine within the tolerance, either way") {
