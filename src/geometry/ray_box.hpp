@@ -47,23 +47,33 @@ namespace pah {
   return {box.min - padding, box.max + padding};
 }
 
-// The part of a ray inside a padded box; empty if near > far. near >= 0.
-struct SlabInterval {
-  float near = 0;
-  float far = std::numeric_limits<float>::infinity();
+// The part of a ray inside a padded box; empty if near > far. near >= 0. Real is float, or Float4
+// for four boxes.
+template <typename Real>
+struct SlabIntervalOf {
+  Real near = Real{};
+  Real far = Real{} + std::numeric_limits<float>::infinity();
 };
+using SlabInterval = SlabIntervalOf<float>;
+
+template <typename Real>
+[[nodiscard, gnu::always_inline]] inline SlabIntervalOf<Real> intersect_slabs(
+    const PreparedRay& ray, const Real (&box_min)[3], const Real (&box_max)[3]) {
+  SlabIntervalOf<Real> interval;
+  for (int i = 0; i < 3; ++i) {
+    const bool negative = std::signbit(ray.inverse[i]);
+    const Real& first = negative ? box_max[i] : box_min[i];
+    const Real& last = negative ? box_min[i] : box_max[i];
+    interval.near = max(first * ray.inverse[i] + ray.near_offset[i], interval.near);
+    interval.far = min(last * ray.inverse[i] + ray.far_offset[i], interval.far);
+  }
+  return interval;
+}
 
 [[nodiscard, gnu::always_inline]] inline SlabInterval intersect_box(const PreparedRay& ray,
                                                                     const Aabb& box) {
-  SlabInterval interval;
-  for (int i = 0; i < 3; ++i) {
-    const bool negative = std::signbit(ray.inverse[i]);
-    const float first = negative ? box.max[i] : box.min[i];
-    const float last = negative ? box.min[i] : box.max[i];
-    interval.near = std::max(interval.near, first * ray.inverse[i] + ray.near_offset[i]);
-    interval.far = std::min(interval.far, last * ray.inverse[i] + ray.far_offset[i]);
-  }
-  return interval;
+  return intersect_slabs<float>(ray, {box.min.x, box.min.y, box.min.z},
+                                {box.max.x, box.max.y, box.max.z});
 }
 
 }  // namespace pah

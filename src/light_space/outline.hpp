@@ -41,10 +41,9 @@ inline constexpr double nearest_on_faces = 64;
 
 // The outline of a triangle on a face; nothing if the face does not see it. `error` bounds, along
 // every axis of the face, the distance from the triangle of a ray that is found to hit it. On a
-// cube's face such an error (ex, ey, ez) moves the image of a point (x, y, z) by
-// (ex - x/z ez) / (z + ez). That is below 2.25 error / z where |x| <= 17/16 z and z >= 64 error.
-// The polygon is clipped to |x| and |y| <= 17/16 z and to z >= 64 error: 2 errors are at most 1/32
-// z.
+// cube's face such an error (ex, ey, ez) moves the image of a point (x, y, z) by (ex - x/z ez) / (z
+// + ez). That is below 2.25 error / z where |x| <= 17/16 z and z >= 64 error. The polygon is
+// clipped to |x| and |y| <= 17/16 z and to z >= 64 error: 2 errors are at most 1/32 z.
 [[nodiscard]] std::optional<Outline> outline_on(const ParallelView& view, int face,
                                                 const Triangle& triangle, double error);
 [[nodiscard]] std::optional<Outline> outline_on(const CubeView& view, int face,
