@@ -1,5 +1,3 @@
-#include <algorithm>
-#include <array>
 #include <pah/accel/accelerator.hpp>
 
 #include "geometry/ray_triangle.hpp"
@@ -8,10 +6,10 @@ namespace pah {
 
 namespace {
 
-// Boxes of eight triangles, laid out for the compiler to test side by side.
+// The padded boxes of four triangles, by axis.
 struct BoxGroup {
-  static constexpr std::size_t size = 8;
-  std::array<std::array<std::array<float, size>, 2>, 3> planes;  // [axis][min, max][triangle]
+  static constexpr std::size_t size = 4;
+  Float4 min[3], max[3];
 };
 
 class BruteForce final : public Accelerator {
@@ -23,10 +21,9 @@ class BruteForce final : public Accelerator {
     boxes_.resize((triangles.size() + BoxGroup::size - 1) / BoxGroup::size);
     for (std::size_t i = 0; i < boxes_.size() * BoxGroup::size; ++i) {
       const Aabb box = i < triangles.size() ? padded(triangles[i].bounds()) : Aabb{};
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        auto& planes = boxes_[i / BoxGroup::size].planes[axis];
-        planes[0][i % BoxGroup::size] = box.min[static_cast<int>(axis)];
-        planes[1][i % BoxGroup::size] = box.max[static_cast<int>(axis)];
+      for (int axis = 0; axis < 3; ++axis) {
+        boxes_[i / BoxGroup::size].min[axis][i % BoxGroup::size] = box.min[axis];
+        boxes_[i / BoxGroup::size].max[axis][i % BoxGroup::size] = box.max[axis];
       }
     }
   }
@@ -65,26 +62,14 @@ class BruteForce final : public Accelerator {
   [[nodiscard]] AcceleratorMemory memory() const override { return {}; }
 
  private:
-  // Calls `test(i)` for every triangle whose own padded box the ray meets (cheap for eight at a
-  // time), until it returns true.
+  // Calls `test(i)` for every triangle whose padded box the ray meets, until it returns true.
   template <typename Test>
   void visit(const PreparedRay& ray, const Test& test) const {
     for (std::size_t group = 0; group < boxes_.size(); ++group) {
-      std::array<float, BoxGroup::size> near{};
-      std::array<float, BoxGroup::size> far;
-      far.fill(ray.t_max);
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        const int k = static_cast<int>(axis);
-        const auto& planes = boxes_[group].planes[axis];
-        const std::size_t near_side = std::signbit(ray.inverse[k]) ? 1 : 0;
-        const std::size_t far_side = 1 - near_side;
-        for (std::size_t i = 0; i < BoxGroup::size; ++i) {
-          near[i] = std::max(near[i], planes[near_side][i] * ray.inverse[k] + ray.near_offset[k]);
-          far[i] = std::min(far[i], planes[far_side][i] * ray.inverse[k] + ray.far_offset[k]);
-        }
-      }
+      const auto [near, far] = intersect_slabs(ray, boxes_[group].min, boxes_[group].max);
+      const Int4 met = (near <= far) & (near <= ray.t_max);
       for (std::size_t i = 0; i < BoxGroup::size; ++i) {
-        if (near[i] <= far[i] && test(group * BoxGroup::size + i)) return;
+        if (met[i] != 0 && test(group * BoxGroup::size + i)) return;
       }
     }
   }

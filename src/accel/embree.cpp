@@ -1,5 +1,5 @@
-// Embree (3.13 or 4) behind the same interface: a peer to be measured against, by its fastest
-// settings. Its ray-triangle test is its own, so its answers are not ours to the last bit.
+// Embree (3.13 or 4) behind the Accelerator interface, with its fastest settings: a reference for
+// speed. It has its own ray-triangle test, so its answers differ in the last bits.
 #include <algorithm>
 #include <array>
 #include <atomic>
@@ -119,8 +119,8 @@ class Embree final : public Accelerator {
     packet.mask[lane] = ~0U;
   }
 
-  // Not told to be coherent: then Embree keeps rays together, which takes twice as long on the rays
-  // of a path tracer.
+  // The packets are not declared coherent: Embree then keeps rays together, which takes twice as
+  // long for the rays of a path tracer.
   template <typename Packet>
   void ask(const int* valid, Packet& packet) const {
 #if PAH_EMBREE >= 4
@@ -152,7 +152,7 @@ class Embree final : public Accelerator {
 
   void add(const Triangles& triangles) {
     const RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
-    // Copies: Embree reads 16 bytes of the last position, too.
+    // Embree's own buffers are padded: it reads 16 bytes even of the last position.
     void* positions =
         rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
                                 sizeof(Vec3), triangles.positions.size());

@@ -2,7 +2,7 @@
 
 namespace pah {
 
-// "4.3.0"; empty if this was built without Embree.
+// Embree's version, such as "4.3.0"; empty if pahrender was built without Embree.
 [[nodiscard]] const char* embree_version();
 
 }  // namespace pah

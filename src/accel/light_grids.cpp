@@ -47,7 +47,7 @@ class LightGridsOverBvh final : public LightGrids {
     closest_hits(bvh_, rays, hits, counts);
   }
 
-  // Runs of rays of one bundle at a time.
+  // Handles consecutive rays of one bundle at a time.
   void occluded(std::span<const Ray> rays, std::span<std::uint8_t> results,
                 TraversalCounts* counts) const override {
     std::size_t first = 0;
@@ -93,13 +93,13 @@ class LightGridsOverBvh final : public LightGrids {
   [[nodiscard]] static double seconds_since(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
   }
-  // Where its grid is, or would be.
+  // The position of the bundle's grid, or where to insert it.
   [[nodiscard]] std::vector<BundleGrid>::const_iterator place_of(std::uint32_t bundle) const {
     return std::ranges::lower_bound(grids_, bundle, {},
                                     [](const BundleGrid& grid) { return grid.report.bundle; });
   }
 
-  // What the grid does not answer traverses.
+  // Rays that the grid does not answer traverse the BVH.
   void look_up(const LightGrid& grid, std::span<const Ray> rays, std::span<std::uint8_t> results,
                TraversalCounts* counts) const {
     constexpr std::size_t batch_size = 256;

@@ -4,8 +4,8 @@ namespace pah {
 
 namespace {
 
-// leaf_cost() of each lane. Quotients round to the right integer below 2^24, and by less than
-// anyone would notice above.
+// leaf_cost() in each lane. The number of rounds is exact below 2^24 items; above, its error does
+// not matter.
 [[gnu::always_inline]] inline Float4 leaf_costs(Int4 counts, Float4 side_by_side) {
   const Float4 items = __builtin_convertvector(counts, Float4) + (side_by_side - 1);
   const Int4 rounds = __builtin_convertvector(items / side_by_side, Int4);
@@ -14,7 +14,7 @@ namespace {
 
 using Boxes = std::array<Box4, 3>;
 
-// SurfaceArea::area() of three boxes, to the same roundings; infinite if they are empty.
+// SurfaceArea of three boxes, rounded the same way; infinite for empty boxes.
 [[gnu::always_inline]] inline Float4 areas(const Boxes& boxes) {
   const Float4 a = boxes[0].max - boxes[0].min;
   const Float4 b = boxes[1].max - boxes[1].min;
@@ -65,7 +65,8 @@ void Bins::clear(std::uint32_t bins) {
 }
 
 void Bins::add(std::span<const Item> items, const Binning& binning) {
-  // Neighbors fall into the same bins, and would wait for each other.
+  // Consecutive items often fall into the same bin, and the second would wait for the first: large
+  // ranges alternate between two sets of bins.
   constexpr std::size_t worth_two = 96;
   std::size_t i = 0;
   if (items.size() >= worth_two) {
@@ -95,8 +96,8 @@ Split Bins::cheapest(const Binning& binning, const BoxMeasure& measure, std::uin
   return best;
 }
 
-// Boxes are swept from both ends, a lane an axis. A side without items costs infinity times 0:
-// not a number, which is never cheaper.
+// Sweeps the bins from both ends, one lane per axis. A side without items costs infinity * 0 = NaN,
+// which never compares as cheaper.
 Split Bins::cheapest_by_area(const Binning& binning, std::uint32_t side_by_side) const {
   const Float4 rounds_of = splat(static_cast<float>(side_by_side));
   std::array<Float4, BuildConfig::max_bins> right_costs;
@@ -130,9 +131,10 @@ Split Bins::cheapest_by_area(const Binning& binning, std::uint32_t side_by_side)
 
 void Bins::sweep(int axis, const BoxMeasure& measure, std::uint32_t side_by_side,
                  std::uint32_t least, Split& best) const {
-  // What is left and right of a split before bin i stands at i - 1 of either half.
+  // Of a split before bin i, entry i - 1 of the first half describes the left side, entry i - 1 of
+  // the second half the right side.
   constexpr std::size_t size = std::size_t{2} * BuildConfig::max_bins;
-  // Kept for each thread: clearing it costs more than most nodes do.
+  // One per thread: initializing it costs more than sweeping most nodes.
   static thread_local std::array<Aabb, size> boxes;
   std::array<std::uint32_t, size> counts;
   std::array<float, size> measures;

@@ -1,4 +1,4 @@
-// Binned items, and the cheapest split between bins.
+// Items sorted into bins, and the cheapest split between bins.
 #pragma once
 
 #include <array>
@@ -12,23 +12,23 @@ namespace pah {
 struct Split {
   float cost = std::numeric_limits<float>::infinity();
   int axis = 0;
-  std::uint32_t bin = 0;  // the first of the right side; 0 if there is none
+  std::uint32_t bin = 0;  // the first bin of the right side; 0 if there is no split
 };
 
-// On which side of a split items are.
+// Tells on which side of a split an item is.
 struct Side {
   int axis;
   float origin, scale, border;
 
-  // As Binning has it: not a number is in the last bin.
+  // NaN is on the right, as Binning puts it in the last bin.
   [[nodiscard, gnu::always_inline]] bool is_right(const Item& item) const {
     const float centroid = 0.5F * item.box.min[axis] + 0.5F * item.box.max[axis];
     return !((centroid - origin) * scale < border);
   }
 };
 
-// Maps centroids to bins, on all axes at once. An axis of no extent cannot be split: its scale is
-// 0.
+// Maps centroids to bins on all axes at once. An axis without extent has scale 0: it cannot be
+// split.
 class Binning {
  public:
   Binning(const Box4& centroids, std::uint32_t bins, AxisMask axes);
@@ -36,7 +36,7 @@ class Binning {
   [[nodiscard]] std::uint32_t bins() const { return bins_; }
   [[nodiscard]] bool splits(int axis) const { return scale_[axis] > 0; }
   [[nodiscard, gnu::always_inline]] Int4 bins_of(const Item& item) const {
-    // Not a number, where far too large numbers met: the last bin.
+    // min() puts NaN, which overflows cause, in the last bin.
     const Float4 position = (item.centroid() - origin_) * scale_;
     return __builtin_convertvector(min(position, last_), Int4);
   }
@@ -56,14 +56,14 @@ struct SplitBoxes {
 
 class Bins {
  public:
-  // Only what is in use is cleared: small nodes have few bins.
+  // Clears only the bins in use: small nodes have few.
   explicit Bins(std::uint32_t bins) { clear(bins); }
 
   void add(std::span<const Item> items, const Binning& binning);
   void add(const Bins& other);
 
-  // By surface area, or by any measure. Ties go to the first axis, then to the first bin. No side
-  // has less than `least` items.
+  // The cheapest split by surface area, or by any measure. Ties go to the first axis, then to the
+  // first bin. No side has fewer than `least` items.
   [[nodiscard]] Split cheapest_by_area(const Binning& binning, std::uint32_t side_by_side) const;
   [[nodiscard]] Split cheapest(const Binning& binning, const BoxMeasure& measure,
                                std::uint32_t side_by_side, std::uint32_t least = 1) const;

@@ -1,4 +1,4 @@
-// Rays against blocks of triangles, for kernels: included once for each instruction set.
+// Tests a ray against blocks of triangles. Kernels include it once for each instruction set.
 #if defined(PAH_BVH_BLOCK_TEST_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef PAH_BVH_BLOCK_TEST_INL
 #undef PAH_BVH_BLOCK_TEST_INL
@@ -18,7 +18,7 @@ namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-// Bit i of the result: lane i of the mask.
+// Bit i of the result is lane i of the mask.
 template <class D, class M>
 HWY_INLINE std::uint32_t bits(D d, M mask) {
   std::uint8_t bytes[8] = {};
@@ -26,7 +26,7 @@ HWY_INLINE std::uint32_t bits(D d, M mask) {
   return bytes[0];
 }
 
-// A ray where it was prepared, beside three others.
+// One of four rays that were prepared together.
 struct OneOfFour {
   const Prepared<Float4>& four;
   std::size_t k;
@@ -38,19 +38,19 @@ HWY_INLINE std::uint32_t lowest_bit(std::uint32_t mask) {
   return static_cast<std::uint32_t>(hwy::Num0BitsBelowLS1Bit_Nonzero32(mask));
 }
 
-// The shared rule as it stands, for what the block's test leaves to it. Seldom called: kept out of
-// the loops, whose registers it would take.
+// Applies the scalar rule where the block's test cannot decide. It is rare, and not inlined: it
+// would take registers from the loops.
 HWY_NOINLINE bool decide(const OneOfFour& ray, const TriangleBlock& block, std::size_t lane,
                          float limit, TriangleHit& hit) {
   return intersect_triangle(extracted(ray.four, ray.k), block.triangle(lane), limit, hit);
 }
 
-// What is found of triangles side by side.
+// The results of a block's test.
 struct BlockHits {
   HWY_ALIGN float t[TriangleBlock::width];
   HWY_ALIGN float u[TriangleBlock::width];
   HWY_ALIGN float v[TriangleBlock::width];
-  std::uint32_t known = 0;  // bit i: triangle i is hit at t; else the rule is to be asked
+  std::uint32_t known = 0;  // bit i: triangle i is hit at t[i]; else decide() must be called
 
   HWY_INLINE bool accept(const OneOfFour& ray, const TriangleBlock& block, std::size_t lane,
                          float limit, TriangleHit& hit) const {
@@ -60,7 +60,7 @@ struct BlockHits {
   }
 };
 
-// Triangles side by side, by the formulas of ray_triangle.hpp.
+// The formulas of ray_triangle.hpp, one triangle per lane.
 using TriangleLanes = hn::CappedTag<float, TriangleBlock::width>;
 using TriangleVec = hn::Vec<TriangleLanes>;
 
@@ -74,7 +74,8 @@ HWY_INLINE TriangleVec largest_size(const TriangleVec (&v)[3]) {
   return hn::Max(hn::Max(hn::Abs(v[0]), hn::Abs(v[1])), hn::Abs(v[2]));
 }
 
-// Which triangles are hit within the limit, or may be.
+// Bit i is set if triangle i is hit within the limit, or may be. Every operation follows the scalar
+// rule, so that results agree to the last bit.
 HWY_INLINE std::uint32_t maybe_hit(const OneOfFour& ray, const TriangleBlock& block, float limit,
                                    BlockHits& found) {
   const TriangleLanes d;
@@ -132,7 +133,7 @@ HWY_INLINE std::uint32_t maybe_hit(const OneOfFour& ray, const TriangleBlock& bl
     const auto without_zero = hn::Ne(hn::Mul(hn::Mul(e[0], e[1]), e[2]), hn::Zero(d));
     const auto well_conditioned =
         hn::And(hn::And(in_range, without_zero), hn::Le(error, hn::Add(most_depth, most_depth)));
-    // Most rays start next to a triangle that is just behind them.
+    // Rejects triangles behind the origin early: most rays start next to one.
     const auto meets = hn::And(hn::Gt(t, hn::Zero(d)), hn::Le(t, hn::Set(d, limit)));
     auto candidates = hn::AndNot(mixed, hn::Or(meets, hn::Not(well_conditioned)));
     if (hn::AllFalse(d, candidates)) continue;
@@ -161,7 +162,7 @@ HWY_INLINE std::uint32_t maybe_hit(const OneOfFour& ray, const TriangleBlock& bl
   return hits;
 }
 
-// Whether the ray hits any of them.
+// Whether the ray hits any triangle of the block.
 HWY_INLINE bool hits_any(const OneOfFour& ray, const TriangleBlock& block, BlockHits& found) {
   TriangleHit hit;
   for (std::uint32_t hits = maybe_hit(ray, block, ray.t_max(), found); hits != 0;

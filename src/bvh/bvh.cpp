@@ -9,7 +9,7 @@ namespace pah {
 
 namespace {
 
-// What becomes a wide node, and where its inner nodes and leaves will stand.
+// The children of a wide node, and the positions of its first inner node and first block.
 struct Children {
   std::array<std::uint32_t, BvhNode::width> nodes;
   std::uint32_t count;
@@ -19,9 +19,9 @@ struct Children {
 
 class Collapser {
  public:
-  Collapser(const BinaryTree& tree, std::span<const float> areas, const Triangles& triangles,
+  Collapser(const BinaryTree& tree, std::span<const float> measures, const Triangles& triangles,
             std::span<const std::uint32_t> subset)
-      : tree_(tree), areas_(areas), triangles_(triangles), subset_(subset) {}
+      : tree_(tree), measures_(measures), triangles_(triangles), subset_(subset) {}
 
   [[nodiscard]] Bvh run() {
     if (tree_.empty()) return {};
@@ -33,7 +33,8 @@ class Collapser {
   }
 
  private:
-  // Breadth first, so that the top of the tree, which every ray visits, lies together.
+  // Chooses the wide nodes breadth first: the top of the tree, which every ray visits, is
+  // contiguous.
   void choose() {
     wide_.reserve(tree_.nodes.size() / 4 + 1);
     wide_.push_back(tree_.nodes.front().leaf() ? Children{{0}, 1, 0, 0}  // a node of one child
@@ -53,21 +54,22 @@ class Collapser {
     }
   }
 
-  // The children of a wide node: the largest inner node is replaced by its two, until it is full.
+  // Replaces the inner node of the largest measure by its two children until the wide node is full.
   [[nodiscard]] Children open(std::uint32_t node) const {
     constexpr float never = -1;
     Children children{};
-    std::array<float, BvhNode::width> areas;
+    std::array<float, BvhNode::width> measures;
     const auto put = [&](std::size_t at, std::uint32_t child) {
       children.nodes[at] = child;
-      areas[at] = tree_.nodes[child].leaf() ? never : areas_[child];
+      measures[at] = tree_.nodes[child].leaf() ? never : measures_[child];
     };
     put(0, tree_.nodes[node].first);
     put(1, tree_.nodes[node].first + 1);
     for (children.count = 2; children.count < BvhNode::width; ++children.count) {
-      const auto* const largest = std::max_element(areas.begin(), areas.begin() + children.count);
+      const auto* const largest =
+          std::max_element(measures.begin(), measures.begin() + children.count);
       if (*largest == never) break;
-      const auto opened = static_cast<std::size_t>(largest - areas.begin());
+      const auto opened = static_cast<std::size_t>(largest - measures.begin());
       const std::uint32_t first = tree_.nodes[children.nodes[opened]].first;
       put(opened, first);
       put(children.count, first + 1);
@@ -122,7 +124,7 @@ class Collapser {
   }
 
   const BinaryTree& tree_;
-  std::span<const float> areas_;
+  std::span<const float> measures_;
   const Triangles& triangles_;
   std::span<const std::uint32_t> subset_;
   std::vector<Children> wide_;
@@ -132,9 +134,9 @@ class Collapser {
 
 }  // namespace
 
-Bvh collapse(const BinaryTree& tree, std::span<const float> areas, const Triangles& triangles,
+Bvh collapse(const BinaryTree& tree, std::span<const float> measures, const Triangles& triangles,
              std::span<const std::uint32_t> subset) {
-  return Collapser(tree, areas, triangles, subset).run();
+  return Collapser(tree, measures, triangles, subset).run();
 }
 
 }  // namespace pah

@@ -1,9 +1,9 @@
-// A BVH as it is traversed: eight children a node, tested side by side; triangles in blocks of
-// four.
+// The BVH as rays traverse it: nodes of eight children and leaves of blocks of four triangles, both
+// tested side by side.
 //
 // It is collapsed from a BinaryTree (Wald, Benthin and Boulos, "Getting Rid of Packets", RT 2008).
-// Kernels are compiled for several instruction sets and chosen at run time (traversal.cpp); all do
-// the same roundings, so that all give the same answers.
+// Kernels are compiled for several instruction sets, and one is chosen at run time (traversal.cpp).
+// All round the same way, so all give the same answers.
 #pragma once
 
 #include <array>
@@ -19,7 +19,7 @@
 
 namespace pah {
 
-// What a node names as a child: an inner node, or a leaf as a run of blocks.
+// A reference to a child: an inner node, or a leaf, which is a run of blocks.
 class ChildRef {
  public:
   static constexpr std::uint32_t max_leaf = BuildConfig::most_leaf;  // triangles
@@ -40,7 +40,7 @@ class ChildRef {
 
  private:
   explicit ChildRef(std::uint32_t bits) : bits_(bits) {}
-  std::uint32_t bits_;  // without a value at first: traversal stacks hold hundreds
+  std::uint32_t bits_;  // not initialized by default: traversal stacks hold hundreds
 };
 
 struct alignas(64) BvhNode {
@@ -48,7 +48,7 @@ struct alignas(64) BvhNode {
   float planes[3][2][width];  // [axis][min, max][child]; unused children have empty boxes
   ChildRef children[width];
 
-  // Of child k; empty if it is not used.
+  // The box of child k; empty if the child is not used.
   [[nodiscard]] Aabb box(std::size_t k) const {
     return {{planes[0][0][k], planes[1][0][k], planes[2][0][k]},
             {planes[0][1][k], planes[1][1][k], planes[2][1][k]}};
@@ -77,10 +77,10 @@ struct Bvh {
   }
 };
 
-// Eight-wide nodes of a tree whose leaves hold at most ChildRef::max_leaf triangles. Item i of the
-// tree is triangle subset[i] of the scene. Inner nodes with the largest boxes are opened first:
-// `areas` has the measure of every node's box.
-[[nodiscard]] Bvh collapse(const BinaryTree& tree, std::span<const float> areas,
+// Collapses a binary tree, whose leaves hold at most ChildRef::max_leaf triangles, to nodes of
+// eight children. Item i of the tree is triangle subset[i] of the scene. `measures` has the measure
+// of every node's box: the inner nodes of the largest measures are opened first.
+[[nodiscard]] Bvh collapse(const BinaryTree& tree, std::span<const float> measures,
                            const Triangles& triangles, std::span<const std::uint32_t> subset);
 
 // hits[i] becomes the nearest hit of ray i, or an invalid one.

@@ -1,4 +1,4 @@
-// What a BVH costs rays, without rays.
+// The expected cost of tracing rays through a BVH, computed without rays.
 #pragma once
 
 #include <pah/bvh/box_measure.hpp>
@@ -7,9 +7,9 @@
 
 namespace pah {
 
-// The expected cost of traversing all that a ray meets (build_config.hpp), of rays of which those
-// that meet a box are measure(box) / whole: what rays cost that hit nothing, and the most that
-// others do. All rays visit the root.
+// The expected cost (build_config.hpp) of a ray that visits all nodes it meets, where the fraction
+// measure(box) / whole of rays meets a box. Rays that hit nothing cost this, others at most this.
+// All rays visit the root.
 [[nodiscard]] double expected_cost(const Bvh& bvh, const BoxMeasure& measure, double whole);
 
 }  // namespace pah

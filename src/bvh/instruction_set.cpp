@@ -5,7 +5,7 @@
 namespace pah {
 
 const char* instruction_set() {
-  // The lowest bit is the best.
+  // The lowest bit stands for the best target.
   const auto targets = static_cast<std::int64_t>(hwy::SupportedTargets() & HWY_TARGETS);
   return hwy::TargetName(targets & -targets);
 }

@@ -1,10 +1,10 @@
-// What the kernels run on.
+// The instruction set that the kernels run on.
 #pragma once
 
 namespace pah {
 
-// As Highway calls it: "AVX2". The best of those that kernels are compiled for and this processor
-// has.
+// Highway's name, such as "AVX2", of the best instruction set that kernels are compiled for and
+// that this processor has.
 [[nodiscard]] const char* instruction_set();
 
 }  // namespace pah

@@ -1,4 +1,4 @@
-// What the builder sorts: a box and its index in 32 bytes, as vectors take them.
+// Items that the builder sorts: a box and its index in 32 bytes, laid out for vector instructions.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace pah {
 
-// The fourth lanes are for nothing.
+// The fourth lanes are unused.
 struct Box4 {
   Float4 min, max;
 
@@ -29,7 +29,7 @@ struct Box4 {
 };
 
 struct Item {
-  Box4 box;  // the index has the fourth lane of its minimum
+  Box4 box;  // the fourth lane of its minimum holds the index
 
   Item() = default;
   Item(const Aabb& bounds, std::uint32_t index)
@@ -38,7 +38,8 @@ struct Item {
   [[nodiscard]] std::uint32_t index() const {
     return static_cast<std::uint32_t>(std::bit_cast<Int4>(box.min)[3]);
   }
-  // As Aabb::center rounds. An index is a denormal number, which takes long to multiply: not kept.
+  // Rounds as Aabb::center() does. The index is masked out: as a float it is denormal, and slow to
+  // multiply.
   [[nodiscard, gnu::always_inline]] Float4 centroid() const {
     const auto low = std::bit_cast<Float4>(std::bit_cast<Int4>(box.min) & Int4{-1, -1, -1, 0});
     return 0.5F * low + 0.5F * box.max;

@@ -1,4 +1,4 @@
-// The kernels. This file is compiled once for each instruction set.
+// The traversal kernels. Highway compiles this file once for each instruction set.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "bvh/traversal.cpp"
 #include <hwy/foreach_target.h>
@@ -17,13 +17,13 @@ namespace pah {
 namespace HWY_NAMESPACE {
 namespace {
 
-// A ray as nodes are tested with it (ray_box.hpp).
+// A ray prepared for the slab test of eight boxes (ray_box.hpp).
 struct NodeRay {
   using D = hn::CappedTag<float, BvhNode::width>;
   hn::Vec<D> inverse[3];
   hn::Vec<D> near_offset[3];
   hn::Vec<D> far_offset[3];
-  std::size_t near_planes[3];  // where in a node, in floats
+  std::size_t near_planes[3];  // offsets into a node's planes, in floats
   std::size_t far_planes[3];
 
   HWY_INLINE explicit NodeRay(const OneOfFour& ray) {
@@ -39,7 +39,7 @@ struct NodeRay {
     }
   }
 
-  // Which children's intervals the ray meets within [0, limit]; `near` is where they start.
+  // Bit k is set if the ray meets child k within [0, limit]; near[k] is where it enters.
   HWY_INLINE std::uint32_t meet_children(const BvhNode& node, float limit,
                                          float* HWY_RESTRICT near) const {
     const D d;
@@ -65,10 +65,10 @@ struct NodeRay {
   }
 };
 
-// A child that waits, as a number: those that are nearer are less.
+// A child on the stack, packed into an integer that compares by distance.
 class Entry {
  public:
-  Entry() = default;  // without a value: stacks hold hundreds
+  Entry() = default;  // not initialized: stacks hold hundreds
   Entry(float near, ChildRef child)
       : bits_(std::uint64_t{std::bit_cast<std::uint32_t>(near)} << 32U |
               std::bit_cast<std::uint32_t>(child)) {}
@@ -84,7 +84,7 @@ class Entry {
   std::uint64_t bits_;
 };
 
-// Without a branch, which nobody could predict.
+// Branch-free: the branch would be unpredictable.
 HWY_INLINE void order(Entry& nearer, Entry& farther) {
   const Entry a = nearer;
   const Entry b = farther;
@@ -92,7 +92,7 @@ HWY_INLINE void order(Entry& nearer, Entry& farther) {
   farther = std::max(a, b);
 }
 
-// Enough for a path to the deepest leaf with all siblings waiting.
+// Enough for a path to the deepest leaf with all siblings on the stack.
 inline constexpr std::size_t stack_size = (BvhNode::width - 1) * max_depth + BvhNode::width;
 
 template <bool counting>
@@ -110,7 +110,7 @@ HWY_INLINE void closest(const Bvh& bvh, const OneOfFour& ray, Hit& best, Travers
       const BvhNode& node = bvh.nodes[current.node()];
       std::uint32_t hits = nodes.meet_children(node, best.t, near);
       if (hits != 0) {
-        // Goes on with the nearest; the others wait, the nearest of them on top.
+        // Continues with the nearest child and pushes the others, the nearest of them last.
         const auto first_of = [&](std::uint32_t children) {
           const std::uint32_t k = lowest_bit(children);
           return Entry(near[k], node.children[k]);
@@ -162,7 +162,7 @@ HWY_INLINE void closest(const Bvh& bvh, const OneOfFour& ray, Hit& best, Travers
         }
       }
     }
-    // Equal distance is visited: a lower index may win there.
+    // A node at an equal distance is visited: a lower index may win there.
     do {
       if (top == stack) return;
       --top;
@@ -203,7 +203,7 @@ HWY_INLINE bool any(const Bvh& bvh, const OneOfFour& ray, TraversalCounts& count
   return false;
 }
 
-// Calls `trace(ray, i)` for every ray. They are prepared some at a time, all divisions of which
+// Calls `trace(ray, i)` for every ray. Rays are prepared 16 at a time, so that their divisions
 // overlap.
 template <class Trace>
 HWY_INLINE void for_each_prepared(std::span<const Ray> rays, const Trace& trace) {

@@ -14,7 +14,7 @@ double cross(const DVec2& a, const DVec2& b) { return a.x * b.y - a.y * b.x; }
 
 int sign(double x) { return (x > 0) - (x < 0); }
 
-// A sum without rounding: a floating-point expansion whose components do not overlap and grow in
+// A sum without rounding: an expansion of nonoverlapping floating-point components of increasing
 // magnitude. Shewchuk, "Adaptive Precision Floating-Point Arithmetic", 1997, figure 6.
 class ExactSum {
  public:
@@ -58,7 +58,8 @@ bool lexicographically_less(const DVec2& a, const DVec2& b) {
   return a.x < b.x || (a.x == b.x && a.y < b.y);
 }
 
-// Sutherland and Hodgman, "Reentrant Polygon Clipping", 1974: what lies left of a -> b, or on it.
+// The part of the polygon left of a -> b or on it. Sutherland and Hodgman, "Reentrant Polygon
+// Clipping", 1974.
 ConvexPolygon clip_left(const ConvexPolygon& polygon, const DVec2& a, const DVec2& b) {
   ConvexPolygon result;
   result.reserve(polygon.size() + 1);
@@ -69,7 +70,7 @@ ConvexPolygon clip_left(const ConvexPolygon& polygon, const DVec2& a, const DVec
     const int q_side = orientation(a, b, q);
     if (p_side >= 0) result.push_back(p);
     if (p_side * q_side < 0) {
-      // Distances may round to nothing where their exact signs differ.
+      // Distances may both round to 0 although their exact signs differ.
       const double p_distance = std::abs(cross(b - a, p - a));
       const double q_distance = std::abs(cross(b - a, q - a));
       const double sum = p_distance + q_distance;
@@ -120,7 +121,6 @@ ConvexPolygon convex_hull(std::span<const DVec2> points) {
   return hull;
 }
 
-// Gauss's formula, relative to the first vertex: large coordinates do not cancel.
 double area(std::span<const DVec2> polygon) {
   double twice = 0;
   for (std::size_t i = 2; i < polygon.size(); ++i)
@@ -130,7 +130,7 @@ double area(std::span<const DVec2> polygon) {
 
 bool contains(std::span<const DVec2> polygon, const DVec2& point) {
   if (polygon.empty()) return false;
-  // A polygon without area has no left side: bound the point along the line as well.
+  // A polygon without area has no inside: the point must also lie between its ends.
   DVec2 low = polygon[0];
   DVec2 high = polygon[0];
   for (std::size_t i = 0; i < polygon.size(); ++i) {
@@ -153,8 +153,8 @@ ConvexPolygon intersection(const ConvexPolygon& a, const ConvexPolygon& b) {
 
 double overlap_area(const ConvexPolygon& a, const ConvexPolygon& b) {
   if (a.size() < 3 || b.size() < 3) return 0;
-  // One order for both ways round, so that the answer is symmetric; and the smaller polygon is the
-  // one that is cut, from its own corner, so that rounding is relative to its size.
+  // A fixed order of the arguments makes the result symmetric. The smaller polygon is clipped,
+  // relative to its first vertex, so that rounding is relative to its size.
   const double a_area = area(a);
   const double b_area = area(b);
   if (b_area < a_area ||

@@ -1,6 +1,6 @@
-// Four floats side by side: x, y and z of a triangle and one that is for nothing, or one of four
-// rays each. In the vector types of GCC and Clang: every machine has four lanes, so that nothing is
-// to be chosen at run time, and every operation rounds as that of a float does.
+// Vectors of four floats: x, y, z and an unused lane, or one value for each of four rays. They use
+// the vector types of GCC and Clang. Every target has four lanes, so nothing is dispatched at run
+// time, and every operation rounds as the scalar one does.
 #pragma once
 
 #include <algorithm>
@@ -20,18 +20,18 @@ using Int4 = std::int32_t __attribute__((vector_size(16)));
   return Float4{v.x, v.y, v.z, w};
 }
 
-// Of any alignment.
+// Loads four floats of any alignment.
 [[nodiscard, gnu::always_inline]] inline Float4 load4(const float* four) {
   Float4 loaded;
   std::memcpy(&loaded, four, sizeof(loaded));
   return loaded;
 }
 
-// The integer beside a float, or four beside four.
+// The integer type of the same size: std::int32_t for float, Int4 for Float4.
 template <typename Real>
 using IntOf = std::conditional_t<std::is_same_v<Real, Float4>, Int4, std::int32_t>;
 
-// Of floats and of Float4.
+// These work on float and on Float4.
 template <typename Real>
 [[nodiscard, gnu::always_inline]] inline Real min(const Real& a, const Real& b) {
   return a < b ? a : b;
@@ -44,7 +44,7 @@ template <typename Real>
 [[nodiscard, gnu::always_inline]] inline Real abs(const Real& a) {
   return std::bit_cast<Real>(std::bit_cast<IntOf<Real>>(a) & 0x7FFFFFFF);
 }
-// `size` is not negative.
+// `size` must not be negative.
 template <typename Real>
 [[nodiscard, gnu::always_inline]] inline Real with_sign_of(const Real& size, const Real& sign) {
   return std::bit_cast<Real>(std::bit_cast<IntOf<Real>>(size) |
@@ -66,7 +66,7 @@ struct Transposed {
           __builtin_shufflevector(zw_ab, zw_cd, 2, 3, 6, 7)};
 }
 
-// Of x, y and z.
+// The largest of x, y and z.
 [[nodiscard, gnu::always_inline]] inline float largest_of(Float4 a) {
   return std::max(a[0], std::max(a[1], a[2]));
 }

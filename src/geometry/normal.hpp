@@ -5,8 +5,8 @@
 
 namespace pah {
 
-// Along the normal of the triangle a, b, c (counter-clockwise as seen from its tip), as long as
-// twice the triangle's area.
+// The normal of the triangle a, b, c, which is counter-clockwise as seen from the normal's tip. Its
+// length is twice the triangle's area.
 [[nodiscard]] inline DVec3 scaled_normal(const DVec3& a, const DVec3& b, const DVec3& c) {
   return glm::cross(b - a, c - a);
 }

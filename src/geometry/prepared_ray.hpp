@@ -1,4 +1,4 @@
-// A ray made ready for box and triangle tests; one alone, or four side by side by the same formula.
+// Rays prepared for box and triangle tests: one, or four side by side by the same formulas.
 #pragma once
 
 #include <limits>
@@ -12,38 +12,39 @@ namespace pah {
 // Real is float, or Float4 for four rays.
 template <typename Real>
 struct Prepared {
-  // The slab test of boxes: t = plane * inverse + offset (ray_box.hpp).
+  // For the slab test of boxes: t = plane * inverse + offset (ray_box.hpp).
   Real inverse[3];
   Real near_offset[3];
   Real far_offset[3];
 
-  // The triangle test: the axis of the largest component becomes z, the next ones in turn x and y,
-  // and a shear makes the ray z.
+  // For the triangle test: the axis of the direction's largest component becomes z, the next two
+  // axes become x and y, and a shear aligns the ray with z.
   Real origin[3];
   Real shear_x;
   Real shear_y;
   Real scale_z;
   IntOf<Real> z_axis;
 
-  Real t_max;  // -1 of a ray that hits nothing: no interval reaches below zero
+  Real t_max;  // -1 for a ray that hits nothing: every interval starts at 0 or above
 };
 using PreparedRay = Prepared<float>;
 
-// The axes of a ray's x and y, if z is known.
+// next_axis[z] is the axis of x, and next_axis[x] that of y.
 inline constexpr std::size_t next_axis[3] = {1, 2, 0};
 
-// What planes and origins are moved by, in units of the largest coordinate, and which components
-// count as more than they are: ray_box.hpp says why.
+// The padding of planes and origins, in units of the largest coordinate, and the size, relative to
+// the largest, below which components of the direction are enlarged. ray_box.hpp derives both.
 inline constexpr float box_padding = rounding_bound(42);
 inline constexpr float smallest_component = 0x1p-27F;
 
-// The directions that can be told from zero and infinity without losing digits, and how far from
-// the world's origin they may start, in units of the direction. Others (and NaN) hit nothing.
+// The range of a direction's largest component in which no digits are lost, and the largest
+// coordinate of an origin in units of that component. Rays outside of these limits (and NaN) hit
+// nothing.
 inline constexpr float min_direction = 0x1p-100F;
 inline constexpr float max_direction = 0x1p100F;
 inline constexpr float max_origin = 0x1p99F;
 
-// Inlined, as the rule is (ray_triangle.hpp).
+// Always inlined: see ray_triangle.hpp.
 template <typename Real>
 [[nodiscard, gnu::always_inline]] inline Prepared<Real> prepare(const Real (&origin)[3],
                                                                 const Real (&direction)[3],
@@ -59,7 +60,7 @@ template <typename Real>
   const Real size[3] = {abs(direction[0]), abs(direction[1]), abs(direction[2])};
   const Real largest = largest_of(size[0], size[1], size[2]);
   const Real far_away = largest_of(abs(origin[0]), abs(origin[1]), abs(origin[2]));
-  Real nothing = splat(0);  // or NaN, where anything is not finite
+  Real zero = splat(0);  // NaN if any input is not finite
   for (int axis = 0; axis < 3; ++axis) {
     const Real limited = max(size[axis], smallest_component * largest);
     const Real inverse = 1 / with_sign_of(limited, direction[axis]);
@@ -68,10 +69,10 @@ template <typename Real>
     ray.inverse[axis] = inverse;
     ray.near_offset[axis] = offset - widening;
     ray.far_offset[axis] = offset + widening;
-    nothing = nothing + 0 * origin[axis] + 0 * direction[axis];
+    zero = zero + 0 * origin[axis] + 0 * direction[axis];
   }
   const auto usable = (largest >= min_direction) & (largest <= max_direction) &
-                      (far_away <= max_origin * largest) & (nothing == 0) & (t_max > 0);
+                      (far_away <= max_origin * largest) & (zero == 0) & (t_max > 0);
   ray.t_max = usable ? min(t_max, splat(std::numeric_limits<float>::max())) : splat(-1);
 
   const auto along_x = size[0] == largest;
@@ -99,7 +100,7 @@ template <typename Real>
 [[nodiscard, gnu::always_inline]] inline Prepared<Float4> prepare(const Ray& a, const Ray& b,
                                                                   const Ray& c, const Ray& d) {
   const Transposed from = transposed(load4(&a.origin.x), load4(&b.origin.x), load4(&c.origin.x),
-                                     load4(&d.origin.x));  // and t_max
+                                     load4(&d.origin.x));  // the fourth lane is t_max
   const Transposed to = transposed(load4(&a.direction.x), load4(&b.direction.x),
                                    load4(&c.direction.x), load4(&d.direction.x));
   const Float4 origin[3] = {from.x, from.y, from.z};
@@ -107,7 +108,7 @@ template <typename Real>
   return prepare(origin, direction, from.w);
 }
 
-// One of four.
+// Ray k of four.
 [[nodiscard]] inline PreparedRay extracted(const Prepared<Float4>& four, std::size_t k) {
   PreparedRay ray;
   for (int axis = 0; axis < 3; ++axis) {

@@ -1,35 +1,37 @@
-// The one ray-triangle rule of the project. Every accelerator gives its answers to the last bit.
+// The ray-triangle rule that all accelerators share to the last bit.
 //
-// The rule. A ray hits a triangle if and only if
+// A ray hits a triangle if and only if
 //   1. the watertight test of Woop, Benthin and Wald ("Watertight Ray/Triangle Intersection", JCGT
 //      2013) accepts: the ray's line meets the triangle, edges and vertices included, both faces;
-//   2. the hit is in front of the origin beyond doubt: either all three vertices are, or t exceeds
-//      its error bound (pbrt-v4, 6.8.5 "Robust Triangle Intersections");
+//   2. the hit is certainly in front of the origin: all three vertices are, or t exceeds its error
+//      bound (pbrt-v4, 6.8.5 "Robust Triangle Intersections");
 //   3. t is at most t_max.
-// Among hits the least (t, triangle index) wins.
+// The hit of the least (t, triangle index) wins.
 //
-// Why no acceleration changes an answer. The rule depends on the ray and the triangle only, and its
+// Why no accelerator changes an answer. The rule depends on the ray and the triangle alone, and its
 // t lies in the interval of every box around the triangle or around the part of it that is hit
-// (ray_box.hpp). A traversal that skips a node only if its interval is empty or near(node) > t of a
-// hit already found can therefore not skip the winner, whatever the tree and the order.
+// (ray_box.hpp). So a traversal that skips a node only if the node's interval is empty or starts
+// beyond a hit already found cannot skip the winner, whatever the tree and the order.
 //
-// Why origin + t d lies within 30 u M of a point of the triangle (u the unit roundoff, M the
-// largest distance along an axis from the origin O to a vertex V). The test sees vertices that are
-// off by roundings: with |shear| <= 1, x - shear * z is off by u M (x) + 4 u M (shear * z: shear is
-// a product with a reciprocal) + 2 u M (difference) = 7 u M. Of these vertices the edge functions
-// have the exact sign: rounding is monotone, so a float difference of float products errs in sign
-// only by being zero, and then doubles decide (products of floats are exact in double). So the line
-// meets the triangle of the rounded vertices, at weights that make a point of the true triangle, 7
-// u M away at most. Their sum of depths is t: weighted depths have 9 roundings at most (two of the
-// depth, sum of edge functions, inverse, product, product, sum), which is 9 u Z, Z being the
-// largest depth. What is left is the error of the edge functions. In double they have all digits.
-// In float each is off by 2 u X Y and u of itself at most, X and Y being the largest |x| and |y|.
-// As t = sum of e z / sum of e, that moves t by 6 u X Y R / |determinant| + u R, R being the range
-// of depths. Where X Y R > 2 Z |determinant|, doubles take over; else that is 12 u Z + 2 u Z.
+// Why origin + t d lies within 30 u M of a point of the triangle. Let u be the unit roundoff and M
+// the largest distance along an axis from the origin to a vertex.
+// - The test rounds vertices: with |shear| <= 1, x - shear * z has an error of u M (x) + 4 u M
+//   (shear * z, where shear is a product with a reciprocal) + 2 u M (difference) = 7 u M. The edge
+//   functions of these rounded vertices have the exact sign: rounding is monotone, so a float
+//   difference of float products has a wrong sign only if it is zero, and then doubles decide
+//   (products of floats are exact in double). So the line meets the triangle of the rounded
+//   vertices, at weights that make a point of the true triangle at most 7 u M away.
+// - t is the weighted sum of depths. Its terms have at most 9 roundings (two of the depth, sum of
+// edge
+//   functions, inverse, product, product, sum): 9 u Z, where Z is the largest depth.
+// - The edge functions are exact in double. In float each has an error of at most 2 u X Y and u of
+//   itself, where X and Y are the largest |x| and |y|. As t = sum of e z / sum of e, this moves t
+//   by 6 u X Y R / |determinant| + u R, where R is the range of depths. Where X Y R > 2 Z
+//   |determinant|, doubles take over; else this is at most 12 u Z + 2 u Z.
 // Together: 7 u M + 23 u M.
 //
 // Two triangles with a shared edge compute its edge function with opposite signs and the same
-// digits, hence no crack.
+// digits: there is no crack.
 #pragma once
 
 #include <algorithm>
@@ -40,8 +42,8 @@
 
 namespace pah {
 
-// All of it is inlined: kernels are compiled for other instruction sets than the rest, and calls
-// between the two cost more than what is called.
+// All functions are inlined: kernels are compiled for several instruction sets, and a call from one
+// to code of another costs more than the function itself.
 
 struct TriangleHit {
   float t = 0;
@@ -51,10 +53,10 @@ struct TriangleHit {
 
 namespace detail {
 
-// A vertex as the ray sees it: the ray is the z axis.
+// A vertex in the coordinates in which the ray is the z axis.
 struct ShearedVertex {
   float x, y, z;
-  float t;  // z in units of the direction
+  float t;  // z in units of the ray's direction
 };
 
 [[nodiscard, gnu::always_inline]] inline ShearedVertex shear(const PreparedRay& ray,
@@ -68,7 +70,8 @@ struct ShearedVertex {
           (along[y] - ray.origin[1]) - ray.shear_y * depth, depth, depth * ray.scale_z};
 }
 
-// Twice the areas that the origin spans with the edges opposite to a, b and c.
+// The edge functions: twice the signed areas of the triangles that the origin makes with the edges
+// opposite to vertices a, b and c.
 template <typename Real>
 struct EdgeFunctions {
   Real a, b, c;
@@ -92,11 +95,11 @@ struct EdgeFunctions {
   return std::max(std::abs(a), std::max(std::abs(b), std::abs(c)));
 }
 
-// How far the vertices are from the ray, and along it.
+// The extent of the vertices across the ray and along it.
 struct Extent {
-  float x, y, z;            // largest size of each
+  float x, y, z;            // largest absolute values
   float nearest, farthest;  // t
-  float depth;              // largest size of t
+  float depth;              // largest |t|
 
   [[gnu::always_inline]] Extent(const ShearedVertex& p, const ShearedVertex& q,
                                 const ShearedVertex& r)
@@ -108,11 +111,11 @@ struct Extent {
         depth(std::max(std::abs(nearest), std::abs(farthest))) {}
 };
 
-// Where float loses no digits to its range.
+// The range of determinants in which float neither overflows nor underflows.
 inline constexpr float least_determinant = 0x1p-100F;
 inline constexpr float most_determinant = 0x1p100F;
 
-// Whether float has the digits that t needs: see the top of this file.
+// Whether float is accurate enough for t: see the top of this file.
 [[nodiscard, gnu::always_inline]] inline bool well_conditioned(const EdgeFunctions<float>& edge,
                                                                const Extent& extent) {
   if (edge.a == 0 || edge.b == 0 || edge.c == 0) return false;
@@ -121,8 +124,8 @@ inline constexpr float most_determinant = 0x1p100F;
   return extent.x * (1 / size) * extent.y * (extent.farthest - extent.nearest) <= 2 * extent.depth;
 }
 
-// How far t can be from the truth, at most (pbrt-v4, 6.8.5): what decides its sign. 5 roundings
-// make depths, 7 their weighted sum.
+// A bound on the error of t (pbrt-v4, 6.8.5), which decides whether t is certainly positive. Depths
+// take 5 roundings, their weighted sum 7.
 template <typename Real>
 [[nodiscard, gnu::always_inline]] inline Real distance_error(const EdgeFunctions<Real>& edge,
                                                              const Extent& extent) {
@@ -135,7 +138,7 @@ template <typename Real>
   return 3 * error * (1 / std::abs(edge.determinant())) * Real{extent.depth};
 }
 
-// A hit if the ray's line meets the triangle, as its edge functions say.
+// Parts 2 and 3 of the rule, given that the ray's line meets the triangle.
 template <typename Real>
 [[nodiscard, gnu::always_inline]] inline bool hit_in_front(
     const EdgeFunctions<Real>& edge, const Extent& extent, const ShearedVertex& p,
@@ -156,8 +159,8 @@ template <typename Real>
 
 }  // namespace detail
 
-// Whether the ray hits the triangle at a t of at most `t_limit`; `hit` holds rubbish if not. The
-// caller decides ties.
+// Whether the ray hits the triangle at a t of at most `t_limit`; if not, `hit` is unspecified. The
+// caller resolves ties.
 [[nodiscard, gnu::always_inline]] inline bool intersect_triangle(const PreparedRay& ray,
                                                                  const Triangle& triangle,
                                                                  float t_limit, TriangleHit& hit) {
@@ -174,7 +177,8 @@ template <typename Real>
   return !exact.mixed_signs() && detail::hit_in_front(exact, extent, p, q, r, t_limit, hit);
 }
 
-// A search starts with no triangle at t_max and ends, if none is found, at infinity.
+// A search starts with nothing_yet(t_max), which has no triangle. finished() turns it into an
+// invalid hit at infinity if none was found.
 [[nodiscard, gnu::always_inline]] inline Hit nothing_yet(float t_max) {
   Hit hit;
   hit.t = t_max;
@@ -184,13 +188,13 @@ template <typename Real>
   return hit.valid() ? hit : Hit{};
 }
 
-// Keeps the nearer of `best` and a hit at no larger t: the lower index where t is equal.
+// Updates `best` with a hit of no larger t. Of equal t, the lower index wins.
 [[gnu::always_inline]] inline void keep_nearer(const TriangleHit& hit, std::uint32_t index,
                                                Hit& best) {
   if (hit.t < best.t || index < best.triangle) best = {hit.t, hit.u, hit.v, index};
 }
 
-// The same for a triangle's hit, if any. `best` starts out as no triangle at the ray's t_max.
+// Tests a triangle and updates `best`, which starts as nothing_yet(t_max).
 inline void update_nearest(const PreparedRay& ray, const Triangle& triangle, std::uint32_t index,
                            Hit& best) {
   TriangleHit hit;

@@ -8,16 +8,16 @@ namespace pah {
 
 namespace {
 
-// Local coordinates are three dot products of a rounded difference with axes that are orthonormal
-// up to rounding themselves: within the region their error is below 4 + 3 + 4 unit roundoffs of its
-// extent. One slack covers that; shape_of() pushes vertices out by four, for the error of a point
-// on either end of a segment, of an exit distance, and of the vertices.
+// Local coordinates are dot products of a rounded difference with axes that are orthonormal up to
+// rounding. Inside the region their error is below 4 + 3 + 4 unit roundoffs of its extent. One
+// slack covers that. shape_of() pushes vertices out by four: for the errors of a segment's two
+// ends, of an exit distance, and of the vertices.
 double rounding_slack(double extent) { return 16 * double_unit_roundoff * extent; }
 
 double extent_of(const Obb& b) { return b.half_size.x + b.half_size.y + b.half_size.z; }
 double extent_of(const Frustum& f) { return f.far * (1 + f.tan_half.x + f.tan_half.y); }
 
-// |(1, t)|: makes the normal of a side plane of a frustum as long as its slack counts.
+// |(1, t)|: converts a distance from a frustum's side plane to units of its normal (1, t).
 DVec2 side_lengths(const Frustum& f) {
   return {std::sqrt(1 + f.tan_half.x * f.tan_half.x), std::sqrt(1 + f.tan_half.y * f.tan_half.y)};
 }
@@ -26,7 +26,7 @@ DVec3 to_local(const DMat3& axes, const DVec3& v) {
   return {glm::dot(axes[0], v), glm::dot(axes[1], v), glm::dot(axes[2], v)};
 }
 
-// By how much a local point keeps away from each face; negative is outside.
+// The distance of a local point from each face; negative outside.
 using Margins = std::array<double, 6>;
 
 Margins margins(const Obb& b, const DVec3& q, double slack) {
@@ -38,7 +38,7 @@ Margins margins(const Frustum& f, const DVec3& q, double slack) {
   return {side.x - q.x, side.x + q.x,        side.y - q.y,
           side.y + q.y, f.far + slack - q.z, q.z - f.near + slack};
 }
-// How fast the margins change along a local direction.
+// The change of the margins along a local direction.
 Margins slopes(const Obb& /*region*/, const DVec3& d) { return {-d.x, d.x, -d.y, d.y, -d.z, d.z}; }
 Margins slopes(const Frustum& f, const DVec3& d) {
   const DVec2 side = f.tan_half * d.z;
@@ -106,7 +106,7 @@ Vec3 round_down(const DVec3& v) {
   return f;
 }
 
-// The corners in the order x, y, z of a binary counter, and the box around them.
+// Fills in the corners, in the order of Aabb::corner(), and the box around them.
 template <typename Corner>
 void fill_vertices(RegionShape& shape, const DVec3& origin, Corner corner) {
   shape.origin = origin;

@@ -1,9 +1,9 @@
 // The separating axis test between a convex region and a box or triangle.
 //
-// Two convex polyhedra are apart if and only if their projections on some axis are: a face normal
-// of either, or the cross product of two edges (thesis, A.5). An axis here may be badly rounded or
-// even zero, as the cross product of parallel edges is: whatever the axis, a gap wider than the
-// rounding error of the projections proves separation, and a bad axis just shows no gap.
+// Two convex polyhedra are separate if and only if their projections on some axis are: on a face
+// normal of either, or on the cross product of two edges (thesis, A.5). An axis may be badly
+// rounded, or even zero, as the cross product of parallel edges is. Whatever the axis, a gap wider
+// than the rounding error of the projections proves separation; a bad axis shows no gap.
 #include <algorithm>
 #include <cmath>
 #include <pah/geometry/region.hpp>
@@ -24,7 +24,7 @@ double largest_coordinate(std::span<const DVec3> points) {
 
 class SeparatingAxisTest {
  public:
-  // Points relative to the region's origin; those of `other` have been rounded once for that.
+  // Points are relative to the region's origin; those of `other` were rounded once for that.
   SeparatingAxisTest(std::span<const DVec3> region, std::span<const DVec3> other)
       : region_(region),
         other_(other),
@@ -33,8 +33,8 @@ class SeparatingAxisTest {
   [[nodiscard]] bool separated_along(const DVec3& axis) const {
     const Interval a = project(region_, axis);
     const Interval b = project(other_, axis);
-    // Each dot product errs by at most 3 unit roundoffs of |axis|_1 * reach, the rounded
-    // difference adds one; on either side, and doubled for good measure.
+    // Each dot product has an error of at most 3 unit roundoffs of |axis|_1 * reach; the rounded
+    // difference adds one. Both sides make 8, doubled for safety.
     const double axis_length = std::abs(axis.x) + std::abs(axis.y) + std::abs(axis.z);
     const double margin = 16 * double_unit_roundoff * axis_length * reach_;
     return a.low - b.high > margin || b.low - a.high > margin;

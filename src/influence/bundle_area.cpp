@@ -14,7 +14,7 @@ DVec3 mean_absolute_direction(const InfluenceArea& area) {
       const DVec2 place = frustum.tan_half * (DVec2(2 * i + 1, 2 * j + 1) / double{steps} - 1.0);
       const DVec3 ray = frustum.axes * DVec3(place, 1);
       const double length = glm::length(ray);
-      // The solid angle of a piece of the picture plane.
+      // The solid angle of a cell of the picture plane, up to a constant.
       const double weight =
           measure == PointMeasure::solid_angle ? 1 / (length * length * length) : 1;
       sum += weight / length * glm::abs(ray);

@@ -9,7 +9,7 @@ namespace pah {
 
 namespace {
 
-// A box relative to an origin, as corners and as center and half-extent.
+// A box relative to an origin, by its corners and by its center and half extent.
 struct RelativeBox {
   RelativeBox(const Aabb& box, const DVec3& origin)
       : low(DVec3(box.min) - origin),
@@ -29,7 +29,7 @@ struct RelativeBox {
 
 enum class Placement { outside, crossing, inside };
 
-// `range` is how far inside a half-space the points of a box are, at least and at most.
+// `range` holds the least and the largest distance of the box's points into a half-space.
 Placement combine(Placement so_far, const DVec2& range) {
   if (so_far == Placement::outside || range.y < 0) return Placement::outside;
   return range.x < 0 ? Placement::crossing : so_far;
@@ -55,7 +55,7 @@ Placement place(const Frustum& region, const RelativeBox& box) {
     result = combine(result, box.range_along(side - region.axes[k]));
     result = combine(result, box.range_along(side + region.axes[k]));
   }
-  // Nothing with an unclear sign of its depth is divided by it.
+  // whole_area() divides by depth: its sign must be certain.
   if (result == Placement::inside && !(depth.x > 0)) return Placement::crossing;
   return result;
 }
@@ -98,9 +98,9 @@ double patch_area(std::span<const DVec2> patch, PointMeasure measure) {
   return sum;
 }
 
-// The area of a box that is wholly in the frustum: of each face that is seen, split in two
-// triangles. On the plane at unit distance a triangle's area is det(a, b, c) / (2 a_z b_z c_z), and
-// for an axis-aligned face the determinant is its distance times its area, exactly.
+// The projected area of a box wholly inside the frustum: the sum over its seen faces, each split in
+// two triangles. On the plane at unit distance a triangle's area is det(a, b, c) / (2 a_z b_z c_z).
+// For an axis-aligned face the determinant is exactly its distance times its area.
 double whole_area(const PointArea& area, const RelativeBox& box, const BoxSector& sector) {
   const DVec3& forward = area.frustum.axes[2];
   double sum = 0;

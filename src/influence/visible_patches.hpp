@@ -1,10 +1,10 @@
-// What a bundle of rays meets of a box, as disjoint convex patches of the picture plane.
+// The part of a box that a bundle of rays meets, as disjoint convex patches of the picture plane.
 //
-// A ray enters a box through a face that is turned towards it, or starts inside: so the patches are
-// those of at most three faces, and of the region's near face where it cuts the box. On a face's
-// plane everything that bounds a patch (its four edges, the near and the far plane) is linear in
-// the picture coordinates. So each patch is the region's rectangle clipped by a few half-planes:
-// nothing is projected, and nothing is ever divided by a depth.
+// A ray enters a box through a face that is turned towards it, or starts inside. So there is at
+// most one patch for each of three faces, and one for the region's near face where it cuts the box.
+// Everything that bounds a patch on a face's plane (the face's four edges, the near and the far
+// plane) is linear in the picture coordinates. So each patch is the region's rectangle clipped by a
+// few half-planes: nothing is projected or divided by a depth.
 #pragma once
 
 #include <algorithm>
@@ -14,7 +14,7 @@
 
 namespace pah {
 
-// x * X + y * Y + c over the picture plane.
+// The linear function x * X + y * Y + c of the picture plane's coordinates (X, Y).
 struct Linear {
   double x = 0, y = 0, c = 0;
 
@@ -37,7 +37,7 @@ class Patch {
                  {half_size.x, half_size.y},
                  {-half_size.x, half_size.y}}} {}
 
-  // Keeps what is not negative (Sutherland and Hodgman, 1974).
+  // Keeps the part where keep >= 0 (Sutherland and Hodgman, "Reentrant Polygon Clipping", 1974).
   void clip(const Linear& keep) {
     std::array<DVec2, capacity> kept{};
     std::size_t count = 0;
@@ -46,7 +46,7 @@ class Patch {
       const DVec2& q = points_[i + 1 == size_ ? 0 : i + 1];
       const double a = keep(p);
       const double b = keep(q);
-      // Rounding can make a sliver change sides more than twice; it has no area to lose.
+      // Rounding can make a sliver cross the line more than twice; dropping it loses no area.
       if (a >= 0 && count < capacity) kept[count++] = p;
       if (((a > 0 && b < 0) || (a < 0 && b > 0)) && count < capacity)
         kept[count++] = p + a / (a - b) * (q - p);
@@ -54,7 +54,7 @@ class Patch {
     points_ = kept;
     size_ = count;
   }
-  // Keeps what is positive: nothing at all if no vertex is.
+  // As clip(), but keeps nothing if keep > 0 at no vertex.
   void clip_strictly(const Linear& keep) {
     const auto all = points();
     if (std::any_of(all.begin(), all.end(), [&](const DVec2& p) { return keep(p) > 0; }))
@@ -70,24 +70,25 @@ class Patch {
   std::size_t size_ = 4;
 };
 
-// The region's rays: at depth z they are at offset + z * slope, both linear in the picture plane.
-// Parallel rays have constant slopes, rays through a point have no offset.
+// The rays of a region. At depth z a ray is at offset + z * slope, both linear in the picture
+// plane. Parallel rays have constant slopes; rays through a point have no offset.
 struct PictureFrame {
   std::array<Linear, 3> offset, slope;  // by world axis, relative to the region's origin
   DVec2 half_size{1};
   double near = 0, far = 1;
 };
 
-// Calls visit(patch) for every patch of the box [low, high], given relative to the region's origin.
+// Calls visit(patch) for every patch of the box [low, high], which is relative to the region's
+// origin.
 template <typename Visit>
 void for_each_patch(const PictureFrame& frame, const DVec3& low, const DVec3& high,
                     const BoxSector& sector, Visit visit) {
-  // s and t below are not both linear in the picture: one of each pair of factors is constant.
+  // A product of s or t below: one of the two factors is constant.
   const auto times = [](const Linear& a, const Linear& b) {
     return b.x == 0 && b.y == 0 ? b.c * a : a.c * b;
   };
   const int flat = (low.x == high.x) + (low.y == high.y) + (low.z == high.z);
-  Patch cap(frame.half_size);  // where rays start inside the box
+  Patch cap(frame.half_size);  // the rays that start inside the box
   for (int k = 0; k < 3; ++k) {
     const auto axis = static_cast<std::size_t>(k);
     const Linear start = frame.offset[axis] + frame.near * frame.slope[axis];
@@ -97,12 +98,13 @@ void for_each_patch(const PictureFrame& frame, const DVec3& low, const DVec3& hi
     if (side >= 0) cap.clip(above_low);
     if (side <= 0) cap.clip(below_high);
     if (side == 0 || flat - (low[k] == high[k]) > 0) continue;  // a face without area
-    // The plane of the face is met at depth t / s. Rays enter there where s > 0.
+    // Rays meet the face's plane at depth t / s, and enter the box there if s > 0.
     const double face = side > 0 ? high[k] : low[k];
     const Linear s = -side * frame.slope[axis];
     const Linear t = side * (frame.offset[axis] - Linear{0, 0, face});
     Patch patch(frame.half_size);
-    // A ray enters through the face or starts beyond it: the same number, so never both.
+    // A ray either enters through the face or starts beyond it. Both tests use the same number, so
+    // no ray counts twice.
     const Linear started_beyond = side > 0 ? below_high : above_low;
     cap.clip_strictly(started_beyond);
     patch.clip(-1 * started_beyond);

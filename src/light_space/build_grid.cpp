@@ -15,18 +15,18 @@ namespace pah {
 
 namespace {
 
-constexpr std::size_t blocks_a_task = 1024;
+constexpr std::size_t blocks_per_task = 1024;
 
-// So that few are in a cell and few cells are empty.
+// Keeps both the lists short and empty cells rare.
 constexpr double cells_per_triangle = 0.25;
 
-constexpr std::size_t usual_entries_a_block = 12;
+constexpr std::size_t typical_entries_per_block = 12;
 
-// Where large triangles overlap, so many cells would list most of them: then there are fewer cells.
-// At last there is one a face, about, which lists a block once.
-constexpr std::uint64_t most_entries_a_block = 32;
-static_assert(most_entries_a_block > CubeView::faces);
-static_assert(most_entries_a_block * ChildRef::max_blocks < 1ULL << 32U);
+// Where large triangles overlap, most cells would list most of them. If the lists exceed this
+// limit, the grid is laid out again with fewer cells, down to about one cell per face.
+constexpr std::uint64_t max_entries_per_block = 32;
+static_assert(max_entries_per_block > CubeView::faces);
+static_assert(max_entries_per_block * ChildRef::max_blocks < 1ULL << 32U);
 
 std::variant<CubeView, ParallelView> view_of(const ExactBundle& bundle, const Aabb& box) {
   if (const auto* point = std::get_if<PointBundle>(&bundle)) return CubeView(*point);
@@ -35,7 +35,7 @@ std::variant<CubeView, ParallelView> view_of(const ExactBundle& bundle, const Aa
 
 Aabb bounds_of(const Bvh& bvh) {
   return parallel_fold(
-      bvh.blocks.size(), blocks_a_task, Aabb{},
+      bvh.blocks.size(), blocks_per_task, Aabb{},
       [&](std::size_t first, std::size_t last) {
         Aabb box;
         for (std::size_t i = first; i < last; ++i) box.extend(bounds_of(bvh.blocks[i]));
@@ -44,8 +44,8 @@ Aabb bounds_of(const Bvh& bvh) {
       [](Aabb& total, const Aabb& box) { total.extend(box); });
 }
 
-// How far from a triangle, along every axis of a face, a ray may be that hits it: see the header.
-// Axes of the world are those of a cube's faces.
+// A bound, along every axis of a face, on the distance from a triangle of a ray that hits it:
+// light_grid.hpp derives it. The axes of a cube's faces are those of the world.
 double error_of(const PointBundle& bundle, const Aabb& origins) {
   const DVec3 eye(bundle.eye);
   const DVec3 away =
@@ -59,35 +59,37 @@ double error_of(const ParallelBundle& bundle, const Aabb& origins) {
   return std::sqrt(3.0) * double{rounding} * std::max({size.x, size.y, size.z});
 }
 
-// What a face sees of the triangles of a block.
+// The outlines of a block's triangles on one face.
 struct Outlines {
-  std::array<Outline, TriangleBlock::width> of;
+  std::array<Outline, TriangleBlock::width> outlines;
   std::size_t size = 0;
 
-  [[nodiscard]] std::span<const Outline> all() const { return std::span(of).first(size); }
+  [[nodiscard]] std::span<const Outline> all() const { return std::span(outlines).first(size); }
 };
 
-Range across(const Outlines& outlines, const Range& v) {
-  Range u;
+// The interval of u that they cover for v in `v`.
+Interval across(const Outlines& outlines, const Interval& v) {
+  Interval u;
   for (const Outline& outline : outlines.all()) u.extend(across(outline, v));
   return u;
 }
 
-// Equal parts of an axis, from the first on, as far as there are any.
-struct Parts {
+// `count` equal parts of an axis.
+struct EqualParts {
   double first, per_length;
   std::uint32_t count;
 
-  [[nodiscard]] Range at(std::uint32_t i) const {
+  [[nodiscard]] Interval at(std::uint32_t i) const {
     return {first + i / per_length, first + (i + 1) / per_length};
   }
 };
 
-// Of places along a row or column of cells, or of tiles.
+// A closed range of places, cells or tiles along one axis.
 struct Indices {
   std::uint32_t first, last;
 };
-std::optional<Indices> indices_of(const Range& range, const Parts& parts) {
+// The parts that the interval touches, if any.
+std::optional<Indices> indices_of(const Interval& range, const EqualParts& parts) {
   const double low = std::floor((range.min - parts.first) * parts.per_length);
   const double high = std::floor((range.max - parts.first) * parts.per_length);
   if (!(low < parts.count && high >= 0)) return {};
@@ -95,7 +97,7 @@ std::optional<Indices> indices_of(const Range& range, const Parts& parts) {
                  static_cast<std::uint32_t>(std::min(high, parts.count - 1.0))};
 }
 
-// The same in cells of so many places, and within one that has some of them.
+// The cells that hold the places, and the places relative to one of these cells.
 Indices in_cells(const Indices& places) {
   return {places.first / GridCell::places, places.last / GridCell::places};
 }
@@ -106,15 +108,15 @@ Indices within(std::uint32_t cell, const Indices& places) {
 }
 
 template <typename View>
-class Builder {
+class GridBuilder {
  public:
-  Builder(LightGrid& grid, const View& view, double error)
+  GridBuilder(LightGrid& grid, const View& view, double error)
       : grid_(grid), view_(view), error_(error) {}
 
   void build() {
     for (double density = cells_per_triangle;; density /= 4) {
       lay_out(grid_, density, error_);
-      const std::size_t tasks = (grid_.bvh->blocks.size() + blocks_a_task - 1) / blocks_a_task;
+      const std::size_t tasks = (grid_.bvh->blocks.size() + blocks_per_task - 1) / blocks_per_task;
       CellEntries entries(tasks, grid_.cells.size());
       if (!place(entries, tasks)) continue;
       entries.sort_into(grid_);
@@ -130,14 +132,13 @@ class Builder {
     return count;
   }
 
-  // Whether rays come from where the face sees something of a box: what is sure not to be seen
-  // there need not be projected.
+  // False if the face certainly sees nothing of the box: then it need not be projected.
   [[nodiscard]] bool may_see(int face, const Aabb& box) const {
     if constexpr (std::is_same_v<View, CubeView>) {
       if (grid_.faces[static_cast<std::size_t>(face)].columns == 0) return false;
       const DVec3 p = view_.local(face, DVec3(box.min)), q = view_.local(face, DVec3(box.max));
       const DVec3 low = glm::min(p, q), high = glm::max(p, q);
-      // At twice the tangent of the border there is room for all errors.
+      // Twice the tangent of the face's border leaves room for all errors.
       return high.z > 0 && low.x <= 2 * high.z && high.x >= -2 * high.z && low.y <= 2 * high.z &&
              high.y >= -2 * high.z;
     }
@@ -154,7 +155,7 @@ class Builder {
       Outlines outlines;
       for (std::size_t i = 0; i < count; ++i) {
         if (const auto outline = outline_on(view_, face, block.triangle(i), error_))
-          outlines.of[outlines.size++] = *outline;
+          outlines.outlines[outlines.size++] = *outline;
       }
       if (outlines.size > 0) use(face, outlines);
     }
@@ -164,18 +165,18 @@ class Builder {
   template <typename Use>
   void for_each_cell(const GridFace& face, std::uint32_t block, const Outlines& outlines,
                      const Use& use) const {
-    Range u, v;
+    Interval u, v;
     for (const Outline& outline : outlines.all()) {
       u.extend(outline.range(0));
       v.extend(outline.range(1));
     }
-    const Parts columns{face.u, face.per_length, face.columns};
-    const Parts rows{face.v, face.per_length, face.rows};
+    const EqualParts columns{face.u, face.per_length, face.columns};
+    const EqualParts rows{face.v, face.per_length, face.rows};
     const auto crossed = indices_of(v, rows);
     if (!crossed) return;
     for (std::uint32_t row = crossed->first; row <= crossed->last; ++row) {
-      const Range strip = rows.at(row);
-      const Range u_in = crossed->first < crossed->last ? across(outlines, strip) : u;
+      const Interval strip = rows.at(row);
+      const Interval u_in = crossed->first < crossed->last ? across(outlines, strip) : u;
       const auto tiles = indices_of(u_in, columns);
       if (!tiles) continue;
       for (std::uint32_t column = tiles->first; column <= tiles->last; ++column) {
@@ -188,18 +189,18 @@ class Builder {
     }
   }
 
-  // The same of a tile, given its places and the ranges of what is seen of the block.
+  // The same for one tile, given its places and the intervals that the block covers.
   template <typename Use>
-  void for_each_cell_of(const GridTile& tile, const Parts& u_places, const Parts& v_places,
-                        const Range& u, const Range& v, std::uint32_t block,
-                        const Outlines& outlines, const Use& use) const {
+  void for_each_cell_of(const GridTile& tile, const EqualParts& u_places,
+                        const EqualParts& v_places, const Interval& u, const Interval& v,
+                        std::uint32_t block, const Outlines& outlines, const Use& use) const {
     const auto v_seen = indices_of(v, v_places);
     if (!v_seen) return;
     const double half = 0.5 * GridCell::places / u_places.per_length;
     const Indices rows = in_cells(*v_seen);
     for (std::uint32_t row = rows.first; row <= rows.last; ++row) {
       const double low = v_places.first + 2 * half * row;
-      const Range u_in = rows.first < rows.last ? across(outlines, {low, low + 2 * half}) : u;
+      const Interval u_in = rows.first < rows.last ? across(outlines, {low, low + 2 * half}) : u;
       const auto u_seen = indices_of(u_in, u_places);
       if (!u_seen) continue;
       const Indices columns = in_cells(*u_seen), in_row = within(row, *v_seen);
@@ -214,7 +215,7 @@ class Builder {
     }
   }
 
-  // A bound of the depths in a cell, given its center and half its side.
+  // A lower bound of the block's depths in a cell, given the cell's center and half its side.
   [[nodiscard]] double nearest_in(const DVec2& center, double half,
                                   const Outlines& outlines) const {
     double nearest = std::numeric_limits<double>::infinity();
@@ -233,22 +234,22 @@ class Builder {
     return nearest;
   }
 
-  // The origin's depth is compared, which a hit's may exceed by an error: another covers what the
-  // plane of a triangle is off.
+  // A ray's origin is compared with this depth, and a hit's depth may exceed the origin's by one
+  // error. The second error covers the rounding of the triangle's plane.
   [[nodiscard]] float stored(double nearest) const { return rounded_down(nearest - 2 * error_); }
 
-  // False if that takes too many entries.
+  // Adds the entries of all blocks. Returns false if they are too many.
   [[nodiscard]] bool place(CellEntries& entries, std::size_t tasks) const {
     const std::size_t blocks = grid_.bvh->blocks.size();
-    const std::uint64_t most = most_entries_a_block * blocks;
+    const std::uint64_t limit = max_entries_per_block * blocks;
     std::atomic<std::uint64_t> total = 0;
     parallel_for(tasks, 1, [&](std::size_t task) {
       auto& placed = entries.of_task(task);
-      placed.reserve(usual_entries_a_block * blocks_a_task);
-      const std::size_t last = std::min((task + 1) * blocks_a_task, blocks);
+      placed.reserve(typical_entries_per_block * blocks_per_task);
+      const std::size_t last = std::min((task + 1) * blocks_per_task, blocks);
       std::size_t counted = 0;
-      for (std::size_t i = task * blocks_a_task; i < last; ++i) {
-        if (total.fetch_add(placed.size() - counted, std::memory_order_relaxed) > most) return;
+      for (std::size_t i = task * blocks_per_task; i < last; ++i) {
+        if (total.fetch_add(placed.size() - counted, std::memory_order_relaxed) > limit) return;
         counted = placed.size();
         for_each_face(grid_.bvh->blocks[i], [&](int face, const Outlines& outlines) {
           for_each_cell(grid_.faces[static_cast<std::size_t>(face)], static_cast<std::uint32_t>(i),
@@ -260,7 +261,7 @@ class Builder {
       }
       total.fetch_add(placed.size() - counted, std::memory_order_relaxed);
     });
-    return total <= most;
+    return total <= limit;
   }
 
   LightGrid& grid_;
@@ -268,7 +269,7 @@ class Builder {
   double error_;
 };
 
-// Blocks with something nearer to the eye than faces show, by their boxes.
+// The blocks whose boxes come nearer to the eye than `distance` along every axis.
 std::vector<std::uint32_t> blocks_near(const Bvh& bvh, const Vec3& eye, double distance) {
   std::vector<std::uint32_t> near;
   for (std::size_t i = 0; i < bvh.blocks.size(); ++i) {
@@ -284,7 +285,7 @@ std::vector<std::uint32_t> blocks_near(const Bvh& bvh, const Vec3& eye, double d
 LightGrid::LightGrid(const Bvh& over, const ExactBundle& bundle)
     : bvh(&over), view(view_of(bundle, bounds_of(over))) {
   const Aabb box = bounds_of(over);
-  // Rays start on triangles, or a little off them.
+  // Rays start on triangles or slightly off them.
   const float around = 0x1p-10F * (box.empty() ? 0 : largest_of(box.extent()));
   origins = {box.min - around, box.max + around};
   const double error = std::visit([&](const auto& b) { return error_of(b, origins); }, bundle);
@@ -294,10 +295,10 @@ LightGrid::LightGrid(const Bvh& over, const ExactBundle& bundle)
     cells.assign(1, {0, 0});
     return;
   }
-  std::visit([&](const auto& any) { Builder(*this, any, error).build(); }, view);
+  std::visit([&](const auto& any) { GridBuilder(*this, any, error).build(); }, view);
   const auto* parallel = std::get_if<ParallelView>(&view);
   if (parallel != nullptr && parallel->tangent() > 0) find_reach(*this, parallel->tangent());
-  // A cone's faces end where it does; elsewhere all is seen.
+  // The faces of a cone end at the cone: rays outside of them are unknown.
   const auto* cube = std::get_if<CubeView>(&view);
   if (cube != nullptr && cube->is_cone()) cells.back().count = GridCell::unknown;
   if (const auto* point = std::get_if<PointBundle>(&bundle))

@@ -10,7 +10,6 @@ namespace pah {
 
 namespace {
 
-// A cell's list in its place, in any order and then in that of depths.
 std::uint32_t* list_of(LightGrid& grid, const GridCell& cell) {
   return &grid.lists[std::size_t{3} * cell.first];
 }

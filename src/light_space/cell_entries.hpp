@@ -1,4 +1,4 @@
-// What is in which cell of a light's grid, until all of it is known and sorted.
+// Collects the entries of a light grid's cells while it is built, then sorts them into its lists.
 #pragma once
 
 #include <atomic>
@@ -7,14 +7,14 @@
 
 namespace pah {
 
-// A block in a cell.
+// One block of triangles in one cell.
 struct CellEntry {
   float nearest;
   PlaceBytes places;
   std::uint32_t block;
 };
 
-// Filled in by tasks, each its own list; the cells' counts are shared.
+// Each task appends to its own list; all tasks share the cells' counters.
 class CellEntries {
  public:
   CellEntries(std::size_t tasks, std::size_t cells) : placed_(tasks), counts_(cells) {}
@@ -26,7 +26,7 @@ class CellEntries {
   [[nodiscard]] std::vector<Placed>& of_task(std::size_t task) { return placed_[task]; }
   void count(std::uint32_t cell) { counts_[cell].fetch_add(1, std::memory_order_relaxed); }
 
-  // The cells and lists of the grid; entries are gone then.
+  // Fills the grid's cells and lists, and frees the entries.
   void sort_into(LightGrid& grid);
 
  private:

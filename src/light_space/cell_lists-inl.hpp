@@ -1,4 +1,4 @@
-// Lists of cells against rays, for kernels: included once for each instruction set.
+// Tests rays against the lists of cells. Kernels include it once for each instruction set.
 #if defined(PAH_LIGHT_SPACE_CELL_LISTS_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef PAH_LIGHT_SPACE_CELL_LISTS_INL
 #undef PAH_LIGHT_SPACE_CELL_LISTS_INL
@@ -19,7 +19,7 @@ namespace {
 
 using Answer = LightGrid::Answer;
 
-// Rays whose look-ups wait for memory at the same time.
+// The rays of a batch wait for memory at the same time.
 constexpr std::size_t batch_size = 64;
 
 HWY_INLINE bool holds(const Aabb& box, const Vec3& p) {
@@ -27,25 +27,25 @@ HWY_INLINE bool holds(const Aabb& box, const Vec3& p) {
          p.y <= box.max.y && p.z <= box.max.z;
 }
 
-// Where a ray is in a cell, and how far from the light.
+// Where a ray is in a cell, and its distance from the light.
 struct Place {
   std::uint32_t cell;
   float depth;
-  PlaceBytes place;  // or places, in the cell, with the eighth bits
+  PlaceBytes place;  // or range of places, in the cell, with the eighth bits set
 };
 
 HWY_INLINE const std::uint32_t* list_of(const LightGrid& grid, const GridCell& cell) {
   return grid.lists.data() + std::size_t{3} * cell.first;
 }
 
-// Short lists, as most are, end on the second of these lines.
+// Fetches two cache lines: most lists end within them.
 HWY_INLINE void prefetch_list(const LightGrid& grid, const GridCell& cell) {
   const std::uint32_t* const list = list_of(grid, cell);
   __builtin_prefetch(list);
   __builtin_prefetch(list + 2 * std::size_t{cell.count});
 }
 
-// Appends the blocks of a cell that may be between the light and a place.
+// Appends the cell's blocks that may lie between the light and the place. Returns the new end.
 HWY_INLINE std::uint32_t* append_blocks(const LightGrid& grid, const GridCell& cell,
                                         const Place& place, std::uint32_t* HWY_RESTRICT blocks) {
   const hn::CappedTag<float, LightGrid::read_beyond> d;
@@ -75,7 +75,7 @@ HWY_INLINE void prefetch(const TriangleBlock& block) {
   __builtin_prefetch(bytes + 128);
 }
 
-// Blocks to be tested, ray by ray, once all of them are on their way from memory.
+// Collects the blocks to test for a batch of rays and prefetches them; test_all() tests them.
 template <bool counting>
 class Candidates {
  public:
@@ -83,12 +83,11 @@ class Candidates {
              TraversalCounts& counts)
       : grid_(grid), rays_(rays), answers_(answers), counts_(counts) {}
 
-  // From now on blocks are a ray's, of which there will be so many at most: false if they have no
-  // room.
-  HWY_INLINE bool begin(std::uint32_t ray, std::size_t most) {
-    if (size_ + most > most_blocks || asked_size_ == batch_size) test_all();
-    if (most > most_blocks) return false;
-    asked_[asked_size_] = {ray, static_cast<std::uint32_t>(size_), 0};
+  // Starts a ray that will add at most `count` blocks. Returns false if there is no room for them.
+  HWY_INLINE bool begin(std::uint32_t ray, std::size_t count) {
+    if (size_ + count > max_blocks || runs_size_ == batch_size) test_all();
+    if (count > max_blocks) return false;
+    runs_[runs_size_] = {ray, static_cast<std::uint32_t>(size_), 0};
     return true;
   }
   HWY_INLINE void add(std::span<const std::uint32_t> blocks) {
@@ -99,42 +98,41 @@ class Candidates {
     size_ = static_cast<std::size_t>(append_blocks(grid_, cell, place, blocks_ + size_) - blocks_);
   }
   HWY_INLINE void end() {
-    Asked& asked = asked_[asked_size_];
-    asked.last = static_cast<std::uint32_t>(size_);
-    for (std::uint32_t k = asked.first; k < asked.last; ++k)
-      prefetch(grid_.bvh->blocks[blocks_[k]]);
-    asked_size_ += asked.last > asked.first ? 1 : 0;
+    Run& run = runs_[runs_size_];
+    run.last = static_cast<std::uint32_t>(size_);
+    for (std::uint32_t k = run.first; k < run.last; ++k) prefetch(grid_.bvh->blocks[blocks_[k]]);
+    runs_size_ += run.last > run.first ? 1 : 0;
   }
 
   HWY_INLINE void test_all() {
-    for (std::size_t first = 0; first < asked_size_; first += 4) {
+    for (std::size_t first = 0; first < runs_size_; first += 4) {
       const auto ray = [&](std::size_t k) HWY_ATTR -> const Ray& {
-        return rays_[asked_[std::min(first + k, asked_size_ - 1)].ray];
+        return rays_[runs_[std::min(first + k, runs_size_ - 1)].ray];
       };
       const Prepared<Float4> prepared = prepare(ray(0), ray(1), ray(2), ray(3));
-      for (std::size_t k = 0; k < std::min<std::size_t>(4, asked_size_ - first); ++k)
-        test(asked_[first + k], OneOfFour{prepared, k});
+      for (std::size_t k = 0; k < std::min<std::size_t>(4, runs_size_ - first); ++k)
+        test(runs_[first + k], OneOfFour{prepared, k});
     }
     size_ = 0;
-    asked_size_ = 0;
+    runs_size_ = 0;
   }
 
  private:
-  static constexpr std::size_t most_blocks = 1024;
+  static constexpr std::size_t max_blocks = 1024;
 
   // A ray and its run of blocks.
-  struct Asked {
+  struct Run {
     std::uint32_t ray;
     std::uint32_t first, last;
   };
 
-  HWY_INLINE void test(const Asked& asked, const OneOfFour& ray) {
+  HWY_INLINE void test(const Run& run, const OneOfFour& ray) {
     BlockHits found;
-    for (std::uint32_t n = asked.first; n < asked.last; ++n) {
+    for (std::uint32_t n = run.first; n < run.last; ++n) {
       if (counting) ++counts_.blocks;
       if (counting) counts_.triangles += TriangleBlock::width;
       if (!hits_any(ray, grid_.bvh->blocks[blocks_[n]], found)) continue;
-      answers_[asked.ray] = Answer::occluded;
+      answers_[run.ray] = Answer::occluded;
       break;
     }
   }
@@ -143,10 +141,10 @@ class Candidates {
   std::span<const Ray> rays_;
   std::span<Answer> answers_;
   TraversalCounts& counts_;
-  std::uint32_t blocks_[most_blocks];
+  std::uint32_t blocks_[max_blocks];
   std::size_t size_ = 0;
-  Asked asked_[batch_size];
-  std::size_t asked_size_ = 0;
+  Run runs_[batch_size];
+  std::size_t runs_size_ = 0;
 };
 
 }  // namespace

@@ -1,12 +1,12 @@
-// How fine the cells of a light's grid are, and where.
+// Chooses the tiles and cells of a light grid.
 #pragma once
 
 #include "light_space/light_grid.hpp"
 
 namespace pah {
 
-// Fills in the faces, the tiles and room for their cells: `density` cells, about, for each triangle
-// of the BVH, more where it has more of them. `error` is that of outline.hpp.
+// Sets the grid's faces and tiles and allocates its cells: about `density` cells per triangle of
+// the BVH, more where triangles are dense. `error` is that of outline.hpp.
 void lay_out(LightGrid& grid, double density, double error);
 
 }  // namespace pah

@@ -5,10 +5,10 @@
 
 namespace pah {
 
-// In the plane of a tangent's axis and the face's own, the directions of a cone are those whose
-// angle differs from its axis's by at most asin(sine / length of the axis's projection). What
-// rounding leaves out of that has no place on the face, and traverses.
-Range CubeView::limits(int face, int axis) const {
+// In the plane of the tangent's axis and the face's axis, the cone's directions are those within
+// asin(sine / length of the cone axis's projection) of that projection. Directions that rounding
+// excludes have no place on the face: their rays traverse the BVH.
+Interval CubeView::limits(int face, int axis) const {
   // Tangents of the face's border, rounded.
   constexpr double border = 1 + 0x1p-20;
   if (!is_cone()) return {-border, border};

@@ -1,4 +1,4 @@
-// How the light of a bundle sees space: every ray of the bundle is a point there.
+// Coordinates of space as a light sees it: every ray of its bundle is one point there.
 #pragma once
 
 #include <pah/geometry/basis.hpp>
@@ -8,9 +8,8 @@
 
 namespace pah {
 
-// The light's view of space: the six faces of a cube about a point, each with tangents from -1 to
-// 1, or for parallel rays one plane across them, in units of length. A place is where on a face, u
-// and v, and how far from the light along the face's axis: its depth.
+// The view of a point light: the six faces of a cube around it. A point of space has a place (u, v)
+// on a face, tangents from -1 to 1, and a depth: its distance from the light along the face's axis.
 class CubeView {
  public:
   static constexpr int faces = 6;
@@ -18,7 +17,7 @@ class CubeView {
   explicit CubeView(const PointBundle& bundle)
       : eye_(bundle.eye), axis_(bundle.axis), sine_(double{bundle.sine}) {}
 
-  // Along the axes of a face, the third being the one that the face is across.
+  // A point in the axes of a face; the third is the axis perpendicular to the face.
   [[nodiscard]] DVec3 local(int face, const DVec3& point) const {
     const DVec3 w = point - DVec3(eye_);
     const int z = face % 3;
@@ -26,10 +25,10 @@ class CubeView {
   }
   [[nodiscard]] const Vec3& eye() const { return eye_; }
 
-  // Whether rays come from some directions only.
+  // Whether the bundle has rays of some directions only.
   [[nodiscard]] bool is_cone() const { return sine_ < 1; }
-  // The tangents that they have along the first or second axis of a face, or more.
-  [[nodiscard]] Range limits(int face, int axis) const;
+  // Bounds of the rays' tangents along the first or second axis of a face.
+  [[nodiscard]] Interval limits(int face, int axis) const;
 
  private:
   Vec3 eye_;
@@ -37,6 +36,7 @@ class CubeView {
   double sine_;
 };
 
+// The view of parallel rays: one face perpendicular to them, in units of length.
 class ParallelView {
  public:
   static constexpr int faces = 1;
@@ -52,15 +52,15 @@ class ParallelView {
     const DVec3 w = point - DVec3(center_);
     return {glm::dot(basis_[0], w), glm::dot(basis_[1], w), -glm::dot(basis_[2], w)};
   }
-  [[nodiscard]] static Range limits(int /*face*/, int /*axis*/) {
+  [[nodiscard]] static Interval limits(int /*face*/, int /*axis*/) {
     constexpr double everywhere = std::numeric_limits<double>::infinity();
     return {-everywhere, everywhere};
   }
-  // The axes of u, v and, backwards, depth.
+  // The axes of u, v and -depth.
   [[nodiscard]] const glm::mat3& axes() const { return rounded_; }
   [[nodiscard]] const Vec3& center() const { return center_; }
   [[nodiscard]] const Vec3& toward() const { return toward_; }
-  // Of the angle by which rays lean against that, at most.
+  // The tangent of the largest angle between a ray and toward().
   [[nodiscard]] float tangent() const { return tangent_; }
 
  private:

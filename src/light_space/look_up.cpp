@@ -1,4 +1,4 @@
-// The kernels. This file is compiled once for each instruction set.
+// The look-up kernels. Highway compiles this file once for each instruction set.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "light_space/look_up.cpp"
 #include <hwy/foreach_target.h>
@@ -15,14 +15,14 @@ namespace pah {
 namespace HWY_NAMESPACE {
 namespace {
 
-// Where the light sees the origins of a batch, in loops that are compiled to vectors.
-struct Seen {
+// The places of a batch's origins in the light's view. The loops that fill it are vectorized.
+struct BatchPlaces {
   alignas(64) float u[batch_size], v[batch_size], depth[batch_size];
   alignas(64) std::int32_t face[batch_size];
 };
 
 HWY_INLINE void see(const CubeView& view, const float (&x)[batch_size],
-                    const float (&y)[batch_size], const float (&z)[batch_size], Seen& seen) {
+                    const float (&y)[batch_size], const float (&z)[batch_size], BatchPlaces& seen) {
   const Vec3 eye = view.eye();
   for (std::size_t i = 0; i < batch_size; ++i) {
     const float wx = x[i] - eye.x, wy = y[i] - eye.y, wz = z[i] - eye.z;
@@ -41,7 +41,7 @@ HWY_INLINE void see(const CubeView& view, const float (&x)[batch_size],
 }
 
 HWY_INLINE void see(const ParallelView& view, const float (&x)[batch_size],
-                    const float (&y)[batch_size], const float (&z)[batch_size], Seen& seen) {
+                    const float (&y)[batch_size], const float (&z)[batch_size], BatchPlaces& seen) {
   const Vec3 center = view.center();
   const glm::mat3 axes = view.axes();
   for (std::size_t i = 0; i < batch_size; ++i) {
@@ -53,6 +53,7 @@ HWY_INLINE void see(const ParallelView& view, const float (&x)[batch_size],
   }
 }
 
+// Whether the ray belongs to the light's bundle.
 HWY_INLINE bool is_of(const CubeView& view, const Ray& ray) {
   return ray.t_max <= 1 && view.eye() - ray.origin == ray.direction;
 }
@@ -60,12 +61,12 @@ HWY_INLINE bool is_of(const ParallelView& view, const Ray& ray) {
   return ray.direction == view.toward();
 }
 
-// The tile where a ray starts, and where in it, in shares of its side.
+// The tile in which a ray starts, and its place there as fractions of the tile's side.
 struct InTile {
   std::uint32_t tile;
   float u, v;
 };
-HWY_INLINE InTile in_tile(const LightGrid& grid, const Seen& seen, std::size_t i) {
+HWY_INLINE InTile in_tile(const LightGrid& grid, const BatchPlaces& seen, std::size_t i) {
   const GridFace& face = grid.faces[static_cast<std::size_t>(seen.face[i])];
   const float u = (seen.u[i] - face.u) * face.per_length;
   const float v = (seen.v[i] - face.v) * face.per_length;
@@ -98,7 +99,7 @@ HWY_INLINE void look_up(const LightGrid& grid, const View& view, std::span<const
     y[i] = rays[i].origin.y;
     z[i] = rays[i].origin.z;
   }
-  Seen seen;
+  BatchPlaces seen;
   see(view, x, y, z, seen);
   InTile tiles[batch_size];
   for (std::size_t i = 0; i < rays.size(); ++i) {
@@ -136,12 +137,12 @@ void look_up_all(const LightGrid& grid, std::span<const Ray> rays, std::span<Ans
                  TraversalCounts& counts) {
   for (std::size_t first = 0; first < rays.size(); first += batch_size) {
     const std::size_t size = std::min(batch_size, rays.size() - first);
-    const std::span<const Ray> some = rays.subspan(first, size);
-    const std::span<Answer> theirs = answers.subspan(first, size);
+    const std::span<const Ray> batch = rays.subspan(first, size);
+    const std::span<Answer> batch_answers = answers.subspan(first, size);
     if (const auto* cube = std::get_if<CubeView>(&grid.view)) {
-      look_up<counting>(grid, *cube, some, theirs, counts);
+      look_up<counting>(grid, *cube, batch, batch_answers, counts);
     } else {
-      look_up<counting>(grid, std::get<ParallelView>(grid.view), some, theirs, counts);
+      look_up<counting>(grid, std::get<ParallelView>(grid.view), batch, batch_answers, counts);
     }
   }
 }

@@ -11,7 +11,8 @@ struct Polygon {
   std::size_t size = 0;
 };
 
-// The part of it for which distance(vertex) >= 0 (Sutherland and Hodgman 1974).
+// The part of the polygon where distance >= 0 (Sutherland and Hodgman, "Reentrant Polygon
+// Clipping", 1974).
 template <typename Distance>
 Polygon clipped(const Polygon& polygon, const Distance& distance) {
   Polygon inside;
@@ -26,9 +27,9 @@ Polygon clipped(const Polygon& polygon, const Distance& distance) {
   return inside;
 }
 
-// Whether the plane through three points, of the normal that they span, is known well enough to
-// bound depths by it: to 2^-33 in direction, by way of doubles, and seen at no less than 2^-10.
-bool is_seen_flat(const std::array<DVec3, 3>& p, const DVec3& normal, double facing, double size) {
+// Whether the plane through three points bounds their depths well: its direction is accurate to
+// 2^-33 in double arithmetic, and the sine of the angle at which it is seen is at least 2^-10.
+bool bounds_depths(const std::array<DVec3, 3>& p, const DVec3& normal, double facing, double size) {
   const double length = glm::length(normal);
   return length >= 0x1p-20 * glm::length(p[1] - p[0]) * glm::length(p[2] - p[0]) && length > 0 &&
          std::abs(facing) >= 0x1p-10 * length * size;
@@ -36,9 +37,9 @@ bool is_seen_flat(const std::array<DVec3, 3>& p, const DVec3& normal, double fac
 
 }  // namespace
 
-Range across(const Outline& outline, const Range& v) {
-  const Range wide{v.min - outline.margin, v.max + outline.margin};
-  Range u;
+Interval across(const Outline& outline, const Interval& v) {
+  const Interval wide{v.min - outline.margin, v.max + outline.margin};
+  Interval u;
   for (std::size_t i = 0; i < outline.size; ++i) {
     const DVec2& a = outline.vertices[i];
     const DVec2& b = outline.vertices[i + 1 < outline.size ? i + 1 : 0];
@@ -64,7 +65,7 @@ std::optional<Outline> outline_on(const ParallelView& view, int face, const Tria
   outline.nearest = std::min({p[0].z, p[1].z, p[2].z});
   outline.offset = outline.nearest;
   const DVec3 normal = glm::cross(p[1] - p[0], p[2] - p[0]);
-  if (is_seen_flat(p, normal, normal.z, 1)) {
+  if (bounds_depths(p, normal, normal.z, 1)) {
     outline.slope = -DVec2(normal) / normal.z;
     outline.offset = p[0].z - glm::dot(outline.slope, DVec2(p[0]));
   }
@@ -109,7 +110,7 @@ std::optional<Outline> outline_on(const CubeView& view, int face, const Triangle
   outline.offset = 1 / outline.nearest;
   const DVec3 normal = glm::cross(p[1] - p[0], p[2] - p[0]);
   const double distance = glm::dot(normal, p[0]);
-  if (is_seen_flat(p, normal, distance, glm::length(p[0]))) {
+  if (bounds_depths(p, normal, distance, glm::length(p[0]))) {
     outline.slope = DVec2(normal) / distance;
     outline.offset = normal.z / distance;
   }

@@ -1,5 +1,5 @@
-// What the light sees of a triangle on one face: a convex polygon, and how far a hit of the
-// triangle may appear from it.
+// The outline of a triangle on one face of the light's view: a convex polygon, and a bound on how
+// far outside of it a hit on the triangle may appear.
 #pragma once
 
 #include <algorithm>
@@ -18,38 +18,38 @@ struct Outline {
   std::array<DVec2, most_vertices> vertices;
   std::size_t size = 0;
   double margin = 0;   // along u and v
-  double nearest = 0;  // depth
-  // A function of the place, linear in u and v, that bounds depths from below: depth itself where
-  // rays are parallel, its reciprocal (from above) where they meet in a point.
+  double nearest = 0;  // the least depth
+  // offset + dot(slope, (u, v)) bounds depth from below for parallel rays. For rays through a point
+  // it bounds 1 / depth from above.
   DVec2 slope{0};
   double offset = 0;
 
-  // Along u or v, widened by the margin.
-  [[nodiscard]] Range range(int axis) const {
-    Range range;
+  // The polygon's extent along u (axis 0) or v (axis 1), widened by the margin.
+  [[nodiscard]] Interval range(int axis) const {
+    Interval range;
     for (std::size_t i = 0; i < size; ++i) range.extend(vertices[i][axis]);
     return {range.min - margin, range.max + margin};
   }
 };
 
-// What is nearer to a point light than this many errors has no place on a face: errors would move
-// it across the whole of it.
+// A point nearer to a point light than this many errors has no place on a face: an error could move
+// it across the whole face.
 inline constexpr double nearest_on_faces = 64;
 
-// Along u and v, where rays meet in a point: see below.
+// The margin along u and v on a cube's face: see outline_on().
 [[nodiscard]] inline double margin_at(double depth, double error) { return 2.25 * error / depth; }
 
-// What is seen of a triangle on a face, if anything. `error` is how far from the triangle, along
-// every axis of the face, a ray may be that is found to hit it. Where rays meet in a point, that
-// moves what is seen of a point (x, y, z), with |x| and |y| of at most 17/16 z, by
-// (ex - x/z ez) / (z + ez), which is less than 2.25 errors / z for z of at least 64 errors. The
-// polygon is cut off there, and where |x| or |y| is 17/16 z: 2 errors are at most 1/32 z.
+// The outline of a triangle on a face; nothing if the face does not see it. `error` bounds, along
+// every axis of the face, the distance from the triangle of a ray that is found to hit it. On a
+// cube's face such an error (ex, ey, ez) moves the image of a point (x, y, z) by (ex - x/z ez) / (z
+// + ez). That is below 2.25 error / z where |x| <= 17/16 z and z >= 64 error. The polygon is
+// clipped to |x| and |y| <= 17/16 z and to z >= 64 error: 2 errors are at most 1/32 z.
 [[nodiscard]] std::optional<Outline> outline_on(const ParallelView& view, int face,
                                                 const Triangle& triangle, double error);
 [[nodiscard]] std::optional<Outline> outline_on(const CubeView& view, int face,
                                                 const Triangle& triangle, double error);
 
-// The range of u that the polygon, widened by its margin, has where v is in a range.
-[[nodiscard]] Range across(const Outline& outline, const Range& v);
+// The interval of u that the polygon, widened by its margin, covers for v in `v`.
+[[nodiscard]] Interval across(const Outline& outline, const Interval& v);
 
 }  // namespace pah

@@ -1,3 +1,4 @@
+// Intervals of real numbers, and rounding down.
 #pragma once
 
 #include <algorithm>
@@ -6,7 +7,8 @@
 
 namespace pah {
 
-struct Range {
+// A closed interval; empty when default-constructed.
+struct Interval {
   double min = std::numeric_limits<double>::infinity();
   double max = -std::numeric_limits<double>::infinity();
 
@@ -15,17 +17,17 @@ struct Range {
     min = std::min(min, x);
     max = std::max(max, x);
   }
-  void extend(const Range& other) {
+  void extend(const Interval& other) {
     min = std::min(min, other.min);
     max = std::max(max, other.max);
   }
 };
 
-[[nodiscard]] inline Range common(const Range& a, const Range& b) {
+[[nodiscard]] inline Interval common(const Interval& a, const Interval& b) {
   return {std::max(a.min, b.min), std::min(a.max, b.max)};
 }
 
-// To a float that is no larger.
+// The largest float that is not above x.
 [[nodiscard]] inline float rounded_down(double x) {
   const auto rounded = static_cast<float>(x);
   return double{rounded} > x ? std::nextafter(rounded, -std::numeric_limits<float>::infinity())

@@ -11,10 +11,10 @@ namespace pah {
 
 namespace {
 
-constexpr float none = std::numeric_limits<float>::infinity();
+constexpr float nothing_near = std::numeric_limits<float>::infinity();
 
 float nearest_in(const LightGrid& grid, const GridTile& tile) {
-  float nearest = none;
+  float nearest = nothing_near;
   for (std::uint32_t i = 0; i < tile.across * tile.across; ++i) {
     const GridCell& cell = grid.cells[tile.first_cell + i];
     if (cell.count > 0)
@@ -23,12 +23,12 @@ float nearest_in(const LightGrid& grid, const GridTile& tile) {
   return nearest;
 }
 
-// Each value's least neighbor, itself included, no more than `reach` away along a line of `count`
-// values that are `stride` apart.
+// to[i] becomes the least of from[i - reach] ... from[i + reach], along a line of `count` values
+// that are `stride` apart.
 void spread_along(const std::vector<float>& from, std::vector<float>& to, std::size_t first,
                   std::size_t count, std::size_t stride, std::size_t reach) {
   for (std::size_t i = 0; i < count; ++i) {
-    float least = none;
+    float least = nothing_near;
     for (std::size_t k = i - std::min(i, reach); k <= std::min(i + reach, count - 1); ++k)
       least = std::min(least, from[first + k * stride]);
     to[first + i * stride] = least;
@@ -44,10 +44,10 @@ void find_reach(LightGrid& grid, float tangent) {
   parallel_for(nearest.size(), 256,
                [&](std::size_t i) { nearest[i] = nearest_in(grid, grid.tiles[i]); });
   const float all = std::ranges::min(nearest);
-  // Rays start within the box, so none rises by more than its diagonal; with a tile for roundings.
+  // Rays start within the box, so none rises by more than its diagonal. Two tiles cover roundings.
   const double rise = glm::length(DVec3(grid.origins.max) - DVec3(grid.origins.min));
-  const double tiles = double{leaning_allowance} * tangent * rise * face.per_length + 2;
-  // Where they reach so far, what is around tells little, and takes long to find.
+  const double tiles = double{tangent_allowance} * tangent * rise * face.per_length + 2;
+  // Beyond this reach the least depth around a tile is slow to find and hardly ever useful.
   constexpr double farthest = 64;
   if (tiles <= farthest) {
     const auto reach = static_cast<std::size_t>(tiles);

@@ -1,14 +1,15 @@
-// Rays that lean against the axis of a sun with a size: their ways across its grid, cell by cell.
+// Rays to a sun with an angular size are tilted against the grid's axis: each is a segment in the
+// sun's view, and walk() looks it up in every cell that it crosses.
 #pragma once
 
 #include "light_space/light_grid.hpp"
 
 namespace pah {
 
-// Rounded directions lean a little more than exact ones.
-inline constexpr float leaning_allowance = 1 + 0x1p-10F;
+// A rounded direction may be tilted slightly more than the exact one.
+inline constexpr float tangent_allowance = 1 + 0x1p-10F;
 
-// As LightGrid::occluded. Rays that lean more, or cross many cells, remain unknown.
+// As LightGrid::occluded(). Rays that are tilted more or cross too many cells remain unknown.
 void walk(const LightGrid& grid, const ParallelView& view, std::span<const Ray> rays,
           std::span<LightGrid::Answer> answers, TraversalCounts* counts);
 

@@ -1,4 +1,4 @@
-// Acceleration never changes an answer: to the last bit.
+// Tests that accelerators agree to the last bit.
 
 #include <hwy/highway.h>
 
@@ -50,7 +50,7 @@ TEST_CASE("Every instruction set gives the same answers") {
   hwy::GetChosenTarget().DeInit();
 }
 
-TEST_CASE("Only triangles at most t_max away count, and that far they do") {
+TEST_CASE("A hit at t_max counts, and none beyond") {
   Soup soup{"plane", {{-9, 0, -9}, {9, 0, -9}, {0, 0, 9}}, {{0, 1, 2}}};
   std::vector<Ray> rays(2, Ray{{0, 2, 0}, 2, {0, -1, 0}});
   rays[1].t_max = std::nextafter(2.0F, 0.0F);
@@ -71,7 +71,7 @@ TEST_CASE("Ties go to the lower index") {
   CHECK(ask(*make_global_bvh(soup.triangles()), rays).hits[0].triangle == 0);
 }
 
-TEST_CASE("Rays that make no sense hit nothing") {
+TEST_CASE("Invalid rays hit nothing") {
   const float nan = std::numeric_limits<float>::quiet_NaN();
   const float inf = std::numeric_limits<float>::infinity();
   const Soup soup = random_soup(100, 1.0F, Vec3{0}, 1);
@@ -91,7 +91,7 @@ TEST_CASE("Rays that make no sense hit nothing") {
   }
 }
 
-TEST_CASE("A distant triangle does not make near rays dearer") {
+TEST_CASE("A distant triangle does not make rays near others more expensive") {
   Soup soup = random_soup(20'000, 0.02F, Vec3{0}, 12);
   const std::vector<Ray> rays = rays_for(random_soup(100, 0.2F, Vec3{0}, 13), 4000, 44);
   TraversalCounts alone;

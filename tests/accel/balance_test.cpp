@@ -1,4 +1,4 @@
-// What becomes of trees where the rays see siblings behind one another.
+// Tests the balance of trees where rays see siblings behind one another.
 #include <pah/accel/trees.hpp>
 #include <pah/bvh/analyze.hpp>
 
@@ -29,7 +29,7 @@ TreeSummary built(const Soup& soup, Heuristic heuristic, SplitAxis split, double
 }  // namespace
 
 TEST_CASE(
-    "along the rays PAH cuts off slivers, unless it may split across them or is held to shares") {
+    "PAH cuts off slivers along the rays, unless it may split across them or has a least share") {
   const Soup soup = heap();
   const auto pah = [&](SplitAxis split, double least_share) {
     return built(soup, Heuristic::projected_area, split, least_share);
@@ -49,13 +49,13 @@ TEST_CASE(
   CHECK(held.mean_depth < 0.9 * along.mean_depth);
 }
 
-TEST_CASE("no child has less than the least share, whatever a tree is built by") {
+TEST_CASE("Every child has at least the least share, whatever the heuristic") {
   const Soup soup = heap();
   for (const double least_share : {0.125, 0.5})
     for (const Heuristic heuristic : {Heuristic::surface_area, Heuristic::projected_area})
       for (const SplitAxis split : {SplitAxis::longest, SplitAxis::best, SplitAxis::facing}) {
         const TreeSummary summary = built(soup, heuristic, split, least_share);
-        // Half of an odd number is less by half an item.
+        // Half of an odd number is rounded down by half an item.
         CHECK(summary.balance.smallest_share >= least_share - 0.5 / TreeBalance::least_triangles);
         CHECK(summary.balance.smallest_share <= 0.5);
       }

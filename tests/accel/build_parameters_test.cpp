@@ -1,4 +1,4 @@
-// Every parameter of a local BVH's build (thesis, 5.1) does to the tree what it says.
+// Tests the effect of every parameter of a local BVH's build (thesis, 5.1) on the tree.
 #include <algorithm>
 #include <pah/bvh/analyze.hpp>
 #include <pah/influence/bundle_area.hpp>
@@ -13,13 +13,13 @@ using namespace pah::test;
 
 namespace {
 
-using Nodes = std::vector<std::pair<BinaryTree::Node, std::uint32_t>>;  // and their depths
+using Nodes = std::vector<std::pair<BinaryTree::Node, std::uint32_t>>;  // with their depths
 
 class Trees {
  public:
   explicit Trees(const InfluenceArea& area) : area_(area) {
     subset_ = local_triangles(soup_.triangles(), area).subset;
-    // Leaves as large as rules like: else most rules are for small ones only.
+    // Large leaves are allowed: otherwise most rules apply to small nodes only.
     config.build.max_leaf = 1'000'000;
     config.build.side_by_side = 1;
   }
@@ -58,7 +58,8 @@ std::uint32_t inner_nodes(const Nodes& nodes) {
       std::ranges::count_if(nodes, [](const auto& node) { return !node.first.leaf(); }));
 }
 
-// Every inner node is beyond the rule, and the rule makes a difference: without it there are more.
+// Checks that every inner node is beyond the rule, and that there are fewer of them than without
+// it.
 template <typename Beyond>
 void check_rule(Trees& trees, const Nodes& without, const Beyond& beyond) {
   const Nodes with = trees.nodes();
@@ -72,7 +73,7 @@ void check_rule(Trees& trees, const Nodes& without, const Beyond& beyond) {
 
 }  // namespace
 
-TEST_CASE("nodes of less area, chance or cost than a rule says are leaves") {
+TEST_CASE("Nodes of less area or probability than a rule's limit are leaves") {
   for (const InfluenceArea& area : {sun(), bulb()})
     for (const Heuristic heuristic : {Heuristic::surface_area, Heuristic::projected_area}) {
       Trees trees(area);
@@ -82,12 +83,12 @@ TEST_CASE("nodes of less area, chance or cost than a rule says are leaves") {
       const bool by_bundle = heuristic == Heuristic::projected_area;
       const auto probability = [&](const Aabb& box) {
         return by_bundle ? hit_probability(area, box)
-                         : double{SurfaceArea{}.area(box)} / double{SurfaceArea{}.area(root)};
+                         : double{SurfaceArea{}(box)} / double{SurfaceArea{}(root)};
       };
       const auto area_of = [&](const Aabb& box) {
-        return by_bundle ? projected_area(area, box) : 2 * double{SurfaceArea{}.area(box)};
+        return by_bundle ? projected_area(area, box) : 2 * double{SurfaceArea{}(box)};
       };
-      // Measures are floats.
+      // Measures are rounded to float.
       const double least = 1 - 1e-6;
       trees.config.build.leaves.probability = 0.02;
       check_rule(trees, without, [&](const Aabb& box, std::uint32_t /*depth*/) {
@@ -102,7 +103,7 @@ TEST_CASE("nodes of less area, chance or cost than a rule says are leaves") {
     }
 }
 
-TEST_CASE("nodes that cost less as leaves than a rule says are leaves") {
+TEST_CASE("Nodes that cost less as leaves than a rule's limit are leaves") {
   Trees trees(sun());
   trees.config.heuristic = Heuristic::projected_area;
   const Nodes without = trees.nodes();
@@ -122,7 +123,7 @@ TEST_CASE("nodes that cost less as leaves than a rule says are leaves") {
   CHECK(inner < static_cast<int>(inner_nodes(without)));
 }
 
-TEST_CASE("nodes of fewer triangles than a rule says are leaves") {
+TEST_CASE("Nodes of fewer triangles than a rule's limit are leaves") {
   Trees trees(sun());
   const Nodes without = trees.nodes();
   trees.config.build.leaves.triangles = 40;
@@ -137,7 +138,7 @@ TEST_CASE("nodes of fewer triangles than a rule says are leaves") {
   }
 }
 
-TEST_CASE("leaves are no larger than allowed, and no deeper than a rule says if so") {
+TEST_CASE("Leaves are no larger than allowed, and as deep as a rule's limit if that allows it") {
   Trees trees(sun());
   trees.config.build.max_leaf = 6;
   for (const auto& [node, depth] : trees.nodes()) CHECK((!node.leaf() || node.count <= 6));
@@ -148,7 +149,7 @@ TEST_CASE("leaves are no larger than allowed, and no deeper than a rule says if 
     for (const auto& [node, depth] : trees.nodes()) deepest = std::max(deepest, depth);
     CHECK(deepest == levels);
   }
-  // What is too large for a leaf is halved.
+  // Nodes too large for a leaf are halved.
   trees.config.build.max_leaf = 6;
   trees.config.build.leaves.levels = 2;
   std::uint32_t deepest = 0;
@@ -159,7 +160,7 @@ TEST_CASE("leaves are no larger than allowed, and no deeper than a rule says if 
   CHECK(deepest > 2);
 }
 
-TEST_CASE("with more bins a tree costs less") {
+TEST_CASE("A tree of more bins costs less") {
   Trees trees(sun());
   trees.config.build.max_leaf = 4;
   double before = std::numeric_limits<double>::infinity();
@@ -173,7 +174,7 @@ TEST_CASE("with more bins a tree costs less") {
 
 namespace {
 
-// On which axes boxes of children lie apart or overlap least, by depth: the axes of splits.
+// The axes of splits, breadth first: those along which the children's centers are farthest apart.
 std::vector<int> split_axes(const BinaryTree& tree, std::uint32_t up_to_depth) {
   std::vector<int> axes;
   visit_tree(
@@ -194,8 +195,8 @@ bool any(const std::vector<int>& axes, int axis) { return std::ranges::count(axe
 }  // namespace
 
 TEST_CASE(
-    "only axes of enough facing quality are split, and the longest if none or not acceptable") {
-  // Qualities: y 0.2, x and z 0.9 and 0.9.
+    "Only axes of enough facing quality are split, or the longest if no split is acceptable") {
+  // The qualities of x, y and z are 0.9, 0.2 and 0.9.
   Trees trees(make_plane_area(DVec3(0, 9, 0), DVec3(0.125, -1, 0.125), DVec2(14), 18));
   trees.config.split = SplitAxis::facing;
   constexpr std::uint32_t top = 3;
@@ -203,19 +204,19 @@ TEST_CASE(
   trees.config.facing.threshold = 0.1;
   const BinaryTree all = trees.tree();
   CHECK(any(split_axes(all, top), 1));
-  // None is good enough: the longest axis, y in a region that is higher than wide.
+  // No axis is good enough: the longest is split, y in a region that is higher than wide.
   Trees tall(make_plane_area(DVec3(0, 9, 0), DVec3(0.125, -1, 0.125), DVec2(3), 18));
   tall.config.split = SplitAxis::facing;
   tall.config.facing.threshold = 1;
   CHECK(split_axes(tall.tree(), 0) == std::vector<int>{1});
   tall.config.facing.threshold = 0.5;
   CHECK(split_axes(tall.tree(), 0) != std::vector<int>{1});
-  // No split is acceptable: the longest is tried, too, and is the cheapest by SAH.
+  // No split is acceptable: the longest axis is tried, too, and is the cheapest by SAH.
   tall.config.facing.acceptable_ratio = 0;
   CHECK(split_axes(tall.tree(), 0) == std::vector<int>{1});
 }
 
-TEST_CASE("an excellent split ends the search for a better one") {
+TEST_CASE("An excellent split ends the search for a better one") {
   Trees trees(make_plane_area(DVec3(0, 9, 0), DVec3(0.05, -1, 0.1), DVec2(6, 12), 18));
   trees.config.split = SplitAxis::facing;
   trees.config.facing.threshold = 0.1;
@@ -223,16 +224,16 @@ TEST_CASE("an excellent split ends the search for a better one") {
     trees.config.facing.excellent_ratio = excellent;
     return split_axes(trees.tree(), 3);
   };
-  // Any split ends it: only the axis that faces best, x, but where it has no extent left.
+  // Any split ends the search: only x, the axis that faces best, is split.
   const std::vector<int> at_once = axes_with(1e9);
   CHECK(std::ranges::count(at_once, 0) == static_cast<std::ptrdiff_t>(at_once.size()));
-  // None does: as if there were no such rule.
+  // No split ends the search: the same tree as without the rule.
   const std::vector<int> searched = axes_with(1e-9);
   CHECK(searched == axes_with(0));
   CHECK(searched != at_once);
 }
 
-TEST_CASE("from a depth on nodes are built by SAH and their longest axis") {
+TEST_CASE("Nodes from a depth on are split by SAH along their longest axis") {
   Trees trees(make_plane_area(DVec3(0, 9, 0), DVec3(0, -1, 0), DVec2(14), 18));
   trees.config.heuristic = Heuristic::projected_area;
   trees.config.split = SplitAxis::facing;
@@ -245,7 +246,7 @@ TEST_CASE("from a depth on nodes are built by SAH and their longest axis") {
   };
   trees.config.non_fallback_levels = 0;
   CHECK(same(trees.tree(), plain.tree()));
-  // Above it y, along which rays run, is never split; below it is.
+  // y, along which rays run, is never split above that depth, but below.
   trees.config.non_fallback_levels = 3;
   const BinaryTree tree = trees.tree();
   CHECK_FALSE(any(split_axes(tree, 2), 1));

@@ -1,4 +1,4 @@
-// Embree's packets find what it finds for single rays.
+// Compares Embree's packets with its single rays.
 
 #include <numeric>
 
@@ -8,7 +8,7 @@
 using namespace pah;
 using namespace pah::test;
 
-TEST_CASE("Packets of Embree's find what single rays find") {
+TEST_CASE("Embree's packets answer like its single rays") {
   if (!has_embree()) {
     WARN("skipped: this was built without Embree");
     return;

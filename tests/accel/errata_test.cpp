@@ -1,7 +1,6 @@
-// What the thesis says in prose of local BVHs and the top level (chapter 3), of how trees are built
-// and traversed (1.3.3, 5.1), and that is wrong as printed. Each stands here as it is printed,
-// beside what it should have said, so that nobody mends the code back. CONTRIBUTING.md lists the
-// other such tests.
+// Tests of the thesis's text about local BVHs and the top level (chapter 3) and about building and
+// traversing trees (1.3.3, 5.1) where it is wrong as printed. Each printed rule stands beside the
+// correct one, so that nobody "corrects" the code back. CONTRIBUTING.md lists all such tests.
 #include <deque>
 #include <pah/accel/local_bvhs.hpp>
 #include <pah/bvh/analyze.hpp>
@@ -13,7 +12,6 @@
 #include "bvh/bvh_cost.hpp"
 #include "catch.hpp"
 #include "geometry/ray_triangle.hpp"
-#include "report/hand_made_tree.hpp"
 #include "support/answers.hpp"
 #include "support/soups.hpp"
 
@@ -38,8 +36,8 @@ Soup part_of(const Soup& soup, const std::vector<std::uint32_t>& subset) {
   return part;
 }
 
-// Section 3.2: those of which "at least one of its vertices or edges is inside". An edge is a
-// triangle that has no area.
+// Section 3.2: the triangles of which "at least one of its vertices or edges is inside". An edge is
+// a triangle without area.
 std::vector<std::uint32_t> printed_local_triangles(const Soup& soup, const Region& region) {
   std::vector<std::uint32_t> subset;
   for (std::uint32_t i = 0; i < soup.indices.size(); ++i) {
@@ -51,8 +49,8 @@ std::vector<std::uint32_t> printed_local_triangles(const Soup& soup, const Regio
   return subset;
 }
 
-// Section 3.2: a hit in the local BVH "is guaranteed to be the closest one"; without one the global
-// BVH is asked.
+// Section 3.2: a hit in the local BVH "is guaranteed to be the closest one"; without a hit the
+// global BVH is traversed.
 Hit printed_nearest(const Soup& soup, const std::vector<std::uint32_t>& local, const Ray& ray) {
   const Hit hit = nearest(part_of(soup, local), ray);
   return hit.valid() ? hit : nearest(soup, ray);
@@ -64,8 +62,8 @@ void add_wall(Soup& soup, float z, float half) {
   soup.add({-half, -half, z}, {half, half, z}, {-half, half, z});
 }
 
-// A ray that leaves its area through a side, x = 1, then meets triangle 1, which is outside, at
-// t = 2 and triangle 0, which reaches into the area elsewhere, at t = 3.
+// A ray that leaves its area through the side at x = 1. It meets triangle 1, which is outside, at t
+// = 2 and triangle 0, another part of which is inside, at t = 3.
 struct SidewaysRay {
   InfluenceArea area = make_plane_area(DVec3(0), DVec3(0, 0, 1), DVec2(2), /*depth=*/10);
   Soup soup;
@@ -77,7 +75,7 @@ struct SidewaysRay {
   }
 };
 
-// Algorithm 5.2: how many nodes a ray is tested against.
+// Algorithm 5.2, with the number of nodes that a ray is tested against.
 struct PrintedTraversal {
   Hit hit;
   std::uint64_t nodes = 0;
@@ -104,19 +102,32 @@ PrintedTraversal printed_traverse(const BinaryTree& tree, const Triangles& trian
   return done;
 }
 
-// Section 5.1.2, of a ray that visits all of a tree.
+// Section 5.1.2: the cost of a ray that visits every node.
 double printed_cost_of_all(const BinaryTree& tree) {
   double cost = 0;
   for (const BinaryTree::Node& node : tree.nodes) cost += node.leaf() ? node.count * 1 : 2 * 1.2;
   return cost;
 }
 
-// The measure of rays that all meet every box.
+// A root over a leaf of 3 triangles and an inner node over leaves of 2 and 5.
+BinaryTree five_nodes() {
+  const auto box = [](float from, float to) { return Aabb{{from, 0, 0}, {to, 2, 2}}; };
+  BinaryTree tree;
+  tree.nodes = {{box(0, 4), 1, 0},
+                {box(0, 2.5F), 3, 0},
+                {box(1.5F, 4), 7, 3},
+                {box(0, 1), 0, 2},
+                {box(1, 2.5F), 2, 5}};
+  tree.order = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9};
+  return tree;
+}
+
+// The measure for rays that all meet every box.
 struct Always {
-  [[nodiscard]] float area(const Aabb& /*box*/) const { return 1; }
+  [[nodiscard]] float operator()(const Aabb& /*box*/) const { return 1; }
 };
 
-// Section 1.3.3; the surface area is twice that.
+// Section 1.3.3; the true surface area is twice this.
 double printed_surface_area(const Aabb& box) {
   const DVec3 size(box.extent());
   return size.x * size.y + size.x * size.z + size.y * size.z;
@@ -145,7 +156,7 @@ TEST_CASE("A wall that an area pierces stops its rays, though no printed local B
 }
 
 // Section 3.2, "guaranteed".
-TEST_CASE("A hit beyond the area is not the nearest, though the printed rule takes it for that") {
+TEST_CASE("A hit beyond the area is not the nearest, though the printed rule guarantees it") {
   SidewaysRay setting;
   const std::vector<std::uint32_t> local =
       printed_local_triangles(setting.soup, region_of(setting.area));
@@ -154,12 +165,13 @@ TEST_CASE("A hit beyond the area is not the nearest, though the printed rule tak
   CHECK(printed_nearest(setting.soup, local, setting.ray).t == 3);
   const auto ours = make_local_bvhs(setting.soup.triangles(), {{setting.area, lamp}});
   CHECK(nearest(*ours, setting.ray).t == 2);
-  CHECK(ours->area_of(setting.ray) == std::size_t{0});  // it was asked
+  CHECK(ours->area_of(setting.ray) == std::size_t{0});  // its local BVH was traversed
 }
 
 // Section 3.3: "read the data in the leaf".
 TEST_CASE(
-    "A point in an octree's cell is not in the cell's areas, as the printed top level has it") {
+    "A point in an octree's cell is not in all of the cell's areas, as the printed top level "
+    "assumes") {
   const InfluenceArea area = make_point_area(DVec3(0), DVec3(0, 0, 1), DVec2(std::acos(0.0)),
                                              /*near=*/0, /*far=*/4);
   Soup soup;
@@ -185,8 +197,8 @@ TEST_CASE(
 
 // Section 3.2: "when no hit is found, it is necessary to traverse the global BVH".
 TEST_CASE(
-    "A segment within an area that hits nothing is answered, and not asked again as printed") {
-  // No float has the eye's coordinates: segments end a rounding beyond it, outside.
+    "A segment within an area that hits nothing is answered, and not traced again as printed") {
+  // The eye's coordinates are not floats: rounded segments end slightly beyond it, outside.
   const DVec3 eye(0.1, 0.2, 0.7);
   const InfluenceArea area = make_point_area(eye, DVec3(0, 0, 1), DVec2(1), /*near=*/0, /*far=*/10);
   Soup soup;
@@ -204,14 +216,14 @@ TEST_CASE(
   make_global_bvh(soup.triangles())->occluded(rays, truth, &printed_counts);
   CHECK(found == truth);
   CHECK(found == std::vector<std::uint8_t>(rays.size(), 0));
-  // The local BVH is empty, so whatever is visited is of the global one.
+  // The local BVH is empty: any visited node belongs to the global BVH.
   CHECK(printed_counts.nodes >= rays.size());
   CHECK(counts.nodes == 0);
   CHECK(ours->uses()[0].answered == rays.size());
 }
 
-// Figure 3.2 and section 5.4.2: a frustum from its near plane on.
-TEST_CASE("What stands before the near plane stops segments, though the frustum has none of it") {
+// Figure 3.2 and section 5.4.2: the frustum begins at its near plane.
+TEST_CASE("What stands before the near plane stops segments, though it is outside the frustum") {
   const InfluenceArea area =
       make_point_area(DVec3(0), DVec3(0, 0, 1), DVec2(1), /*near=*/1, /*far=*/10);
   Soup soup;
@@ -220,7 +232,7 @@ TEST_CASE("What stands before the near plane stops segments, though the frustum 
   const std::vector<std::uint32_t> local = printed_local_triangles(soup, region_of(area));
   REQUIRE(local == std::vector<std::uint32_t>{2, 3});
   const Ray segment{{0.5F, 0.25F, 8}, 1, {-0.5F, -0.25F, -8}, lamp};
-  // If what the local BVH says of a segment were final.
+  // By the local BVH's answer alone, the segment hits nothing.
   CHECK_FALSE(nearest(part_of(soup, local), segment).valid());
   const auto ours = make_local_bvhs(soup.triangles(), {{area, lamp}});
   CHECK(nearest(*ours, segment).t == Approx(7.5 / 8));
@@ -228,7 +240,7 @@ TEST_CASE("What stands before the near plane stops segments, though the frustum 
 }
 
 // Section 3.1: "if the tolerance gets too large ...".
-TEST_CASE("A tolerance changes no answer, as it does by the printed rules") {
+TEST_CASE("A tolerance changes no answer, though it does by the printed rules") {
   const SidewaysRay setting;
   const std::vector<std::uint32_t> local =
       printed_local_triangles(setting.soup, region_of(setting.area));
@@ -252,7 +264,7 @@ TEST_CASE("A tolerance changes no answer, as it does by the printed rules") {
 
 // Section 5.1.2, algorithm 5.2.
 TEST_CASE(
-    "The nearest wall is found by a look at few nodes, where the printed queue takes hundreds") {
+    "The nearest wall is found by a look at few nodes, where the printed queue visits hundreds") {
   Soup soup;
   for (int i = 0; i < 1000; ++i) add_wall(soup, static_cast<float>(i), 1);
   const BuiltBvh built = build_bvh(soup.triangles());
@@ -270,7 +282,7 @@ TEST_CASE(
 // Section 5.1.2 counts a triangle as 1 and a box as 1.2; section 1.3.3 has them the other way
 // round.
 TEST_CASE("A box costs 1 and a block of triangles 1.2, not the reverse as printed") {
-  const BinaryTree tree = hand_made_tree();
+  const BinaryTree tree = five_nodes();
   const std::vector<Vec3> positions(3, Vec3(0, 0, 0));  // no area: nothing is hit
   const std::vector<UVec3> indices(10, UVec3{0, 1, 2});
   const Bvh bvh = collapse(tree, std::vector<float>{20, 14, 14, 8, 10},
@@ -285,12 +297,12 @@ TEST_CASE("A box costs 1 and a block of triangles 1.2, not the reverse as printe
   const double truth = 1 + 4 * 1.2;
   CHECK(traversal_cost(counts) == Approx(truth));
   CHECK(expected_cost(bvh, each_box(Always{}), 1) == Approx(truth));  // as predicted
-  // As the builder sees it: two inner nodes of two boxes.
+  // The builder counts two inner nodes of two boxes.
   CHECK(expected_cost(tree, {}, each_box(Always{})) == Approx(2 * 2 + 4 * 1.2));
   CHECK(printed_cost_of_all(tree) == Approx(2 * 2 * 1.2 + 10));
 }
 
-// Section 1.3.3: half the surface area, which is fine only as a ratio.
+// Section 1.3.3: half the surface area, which is correct only in ratios.
 TEST_CASE("What all rays hit costs the same by surface and by projected area") {
   const Aabb cube{Vec3(-1), Vec3(1)};
   BinaryTree leaf;
@@ -299,11 +311,11 @@ TEST_CASE("What all rays hit costs the same by surface and by projected area") {
   const ParallelBundleArea along_z(DVec3(0, 0, 1));
   CHECK(expected_cost(leaf, {}, each_box(SurfaceArea{})) == Approx(1.2));
   CHECK(expected_cost(leaf, {}, each_box(along_z)) == Approx(1.2));
-  // Six faces of 4; one of them is what rays along an axis see.
+  // A cube of six faces of area 4; rays along an axis see one of them.
   const double surface = 24, seen = 4;
   CHECK(printed_surface_area(cube) == surface / 2);
-  CHECK(double{along_z.area(cube)} == Approx(seen));
-  // Not over the root's, the printed area makes of one block a cost of three.
+  CHECK(double{along_z(cube)} == Approx(seen));
+  // Not divided by the root's, the printed area gives one block the cost of three.
   CHECK(printed_surface_area(cube) * 1.2 == Approx(3 * seen * 1.2));
 }
 
@@ -320,7 +332,7 @@ TEST_CASE("Rays along z do not split z, as they do by the printed quality") {
   LocalConfig config;
   config.heuristic = Heuristic::projected_area;
   config.split = SplitAxis::facing;
-  // The chances of both halves of the root to be hit, over its own.
+  // The sum of the hit probabilities of the root's halves over its own.
   const auto ratio = [&](const BuildHeuristic& heuristic) {
     const BinaryTree tree = build_tree(boxes, config.build, heuristic);
     const BinaryTree::Node& root = tree.nodes[0];

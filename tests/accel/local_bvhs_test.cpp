@@ -1,4 +1,4 @@
-// Local BVHs answer like brute force, whatever the areas are declared to be.
+// Tests that local BVHs answer like brute force, whatever the areas.
 #include <algorithm>
 #include <array>
 #include <pah/accel/local_bvhs.hpp>
@@ -21,8 +21,8 @@ struct Setting {
   std::vector<Ray> rays;
 };
 
-// Areas that overlap, cut triangles, have a near plane, hold the eye, or are of another light than
-// their rays say; and the rays that they are asked.
+// Areas that overlap, cut triangles, have a near plane, hold the eye, or belong to another light
+// than their rays name; and the rays to trace.
 Setting make_setting(const Soup& soup, std::uint32_t seed, std::size_t rays_each = 3000) {
   Random random(seed);
   Aabb box = bounds_of(soup.triangles());
@@ -117,7 +117,7 @@ TEST_CASE("Local BVHs answer like brute force, 1e7 rays", "[full]") {
   }
 }
 
-TEST_CASE("Areas take their rays from the global BVH", "[threads]") {
+TEST_CASE("Local BVHs answer rays that would otherwise go to the global BVH", "[threads]") {
   const Soup soup = random_soup(3000, 0.05F, Vec3{0}, 10);
   const Setting setting = make_setting(soup, 3);
   const auto local = make_local_bvhs(soup.triangles(), setting.areas);
@@ -126,15 +126,15 @@ TEST_CASE("Areas take their rays from the global BVH", "[threads]") {
     CHECK(report.triangles <= soup.indices.size());
     CHECK(report.global_cost >= 0);
   }
-  // The box that holds everything has every triangle and costs what the global BVH costs.
+  // The area that holds everything has every triangle, and costs as much as the global BVH.
   const LocalBvhReport& whole = local->reports()[setting.areas.size() - 2];
   CHECK(whole.triangles == soup.indices.size());
   CHECK(whole.predicted_cost == Approx(whole.global_cost));
-  // The needle's has next to none.
+  // The needle's area has almost no triangles.
   CHECK(local->reports().back().triangles < soup.indices.size() / 10);
 }
 
-TEST_CASE("Without triangles or areas there is nothing to hit or to ask") {
+TEST_CASE("Local BVHs work without triangles and without areas") {
   const Soup empty;
   const std::vector<Ray> rays(3);
   CHECK(!ask(*make_local_bvhs(empty.triangles(), {}), rays).hits[0].valid());

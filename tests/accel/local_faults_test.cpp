@@ -1,4 +1,5 @@
-// One area a case, so that no other answers in its place: what goes wrong if a guard is forgotten.
+// Tests the guards of local BVHs, with one area per case so that no other area answers in its
+// place.
 #include <cmath>
 #include <pah/accel/local_bvhs.hpp>
 #include <pah/bvh/analyze.hpp>
@@ -28,7 +29,7 @@ LocalBvhUse use_of(const Soup& soup, const InfluenceArea& area, const std::vecto
   const auto local = make_local_bvhs(soup.triangles(), {{area, lamp}});
   TraversalCounts counts;
   check_same(ask(*make_brute_force(soup.triangles()), rays), ask(*local, rays, &counts));
-  // Asked twice: for the nearest hit and for any.
+  // Each ray counts twice: for the nearest hit and for occlusion.
   LocalBvhUse use = local->uses().at(0);
   CHECK(use.asked % 2 == 0);
   return {use.asked / 2, use.answered / 2, use.cost};
@@ -66,7 +67,7 @@ TEST_CASE("What stands behind an area's side stops segments that end there") {
   for (int i = 0; i < 200; ++i) {
     const Vec3 from{random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(6, 9)};
     const Vec3 to{random.uniform(-9, 9), random.uniform(-9, 9), 14};
-    rays.push_back({from, 1, to - from, lamp});  // t_max is 1, as of segments to the eye
+    rays.push_back({from, 1, to - from, lamp});  // t_max is 1, as for segments to the eye
     rays.push_back({from, 1, -from, lamp});
   }
   const LocalBvhUse use = use_of(soup, area, rays);
@@ -84,7 +85,7 @@ TEST_CASE("A segment that misses the eye by a rounding meets what stands there")
   REQUIRE(rounded.y > eye.y);
   Soup soup;
   Random random(3);
-  // Within a few floats of the eye, on the side of it on which segments arrive.
+  // Within a few floats of the eye, on the side from which segments arrive.
   const auto beside = [&] {
     Vec3 at = rounded;
     for (int axis = 0; axis < 3; ++axis)
@@ -101,7 +102,7 @@ TEST_CASE("A segment that misses the eye by a rounding meets what stands there")
   CHECK(use_of(soup, area, rays).answered > 2000);
 }
 
-TEST_CASE("A ray that an area cannot answer is not counted as answered") {
+TEST_CASE("A ray without a final answer from its area is not counted as answered") {
   const InfluenceArea area = make_plane_area(DVec3(0), DVec3(0, 0, 1), DVec2(2), /*depth=*/10);
   Soup soup;
   add_wall(soup, 5, 0.5F);
@@ -110,8 +111,8 @@ TEST_CASE("A ray that an area cannot answer is not counted as answered") {
       {{0, 0, 1}, endless, {0, 0, 1}, lamp},     // hits inside
       {{0.8F, 0, 1}, endless, {0, 0, 1}, lamp},  // hits behind the area
       {{0.8F, 0, 1}, 4, {0, 0, 1}, lamp},        // ends inside
-      {{3, 0, 1}, endless, {0, 0, 1}, lamp},     // starts outside: not asked
-      {{0, 0, 1}, endless, {0, 0, 1}, 8},        // of another bundle: not asked
+      {{3, 0, 1}, endless, {0, 0, 1}, lamp},     // starts outside: not traced locally
+      {{0, 0, 1}, endless, {0, 0, 1}, 8},        // of another bundle: not traced locally
   };
   const LocalBvhUse use = use_of(soup, area, rays);
   CHECK(use.asked == 3);
@@ -119,8 +120,9 @@ TEST_CASE("A ray that an area cannot answer is not counted as answered") {
   CHECK(use.cost > 0);
 }
 
-TEST_CASE("A tree by the projected area is cheaper for its bundle than one by the surface area") {
-  // Sheets along the rays, which surface area fears and the bundle does not see, across sheets.
+TEST_CASE("A tree built by PAH is cheaper for its bundle than one built by SAH") {
+  // Sheets along the rays, of a large surface area that the bundle hardly sees, and sheets across
+  // the rays.
   Soup soup;
   Random random(4);
   for (int i = 0; i < 4000; ++i) {
@@ -164,7 +166,7 @@ TEST_CASE("Axes are rated by how well they face the bundle") {
   check(rated({0, 0, 1}, {{0, -1, 3}, {0, 1, 5}}), {1, 2, 0}, {1, 0, -1});
 }
 
-TEST_CASE("The nearest of many walls is found by a look at few") {
+TEST_CASE("The nearest of many walls is found in a few nodes") {
   Soup soup;
   for (int i = 0; i < 1000; ++i) add_wall(soup, static_cast<float>(i), 1);
   std::vector<Ray> rays;
@@ -186,14 +188,14 @@ TEST_CASE("The nearest of many walls is found by a look at few") {
   CHECK(counts.triangles < 40 * rays.size());
 }
 
-TEST_CASE("What is behind the nearest hit is not looked at, also where nearer boxes are missed") {
+TEST_CASE("Nodes behind the nearest hit are not visited, even if rays miss nearer boxes") {
   Soup soup;
   for (int i = 0; i < 1000; ++i) {
     const auto z = static_cast<float>(i);
     if (i == 300)
       add_wall(soup, z, 1);
     else
-      soup.add({-1, -1, z}, {1, -1, z}, {-1, 1, z});  // half a wall, whose box is whole
+      soup.add({-1, -1, z}, {1, -1, z}, {-1, 1, z});  // half a wall, with the box of a whole one
   }
   const auto bvh = make_global_bvh(soup.triangles());
   const auto counts_of = [&](float t_max) {

@@ -1,5 +1,5 @@
-// Areas that hold a point are found, whatever finds them, and rays without a bundle are answered
-// like by brute force whatever that and the tolerance are.
+// Tests that every kind of top level finds the areas that hold a point, and that rays without a
+// bundle are answered like by brute force for every kind and tolerance.
 #include "accel/local/top_level.hpp"
 
 #include <algorithm>
@@ -56,7 +56,7 @@ std::vector<AreaCandidate> all_at(const Structure& structure, const Vec3& point)
   return found;
 }
 
-// Counts areas that hold the point and are not found, or are found twice or out of order.
+// Counts areas that hold the point and are missed, found twice or found out of order.
 template <typename Structure>
 int faults_at(const Structure& structure, const std::vector<Region>& regions, const Vec3& point) {
   const std::vector<AreaCandidate> found = all_at(structure, point);
@@ -68,12 +68,12 @@ int faults_at(const Structure& structure, const std::vector<Region>& regions, co
   return faults;
 }
 
-// On borders of cells and areas as often as anywhere, and next to them.
+// Random points, often on borders of cells and areas or next to them.
 Vec3 next_point(Random& random, const Aabb& box, const std::vector<Region>& regions) {
   Vec3 point = random.in_box(box);
   const std::uint32_t kind = random.below(10);
   if (kind < 3) {
-    for (int k = 0; k < 3; ++k) {  // where cells are halved
+    for (int k = 0; k < 3; ++k) {  // a border between cells
       const float cells = std::ldexp(1.0F, static_cast<int>(random.below(8)));
       const float share = std::round((point[k] - box.min[k]) / (box.max[k] - box.min[k]) * cells);
       if (random.below(2) == 0) point[k] = box.min[k] + share / cells * (box.max[k] - box.min[k]);
@@ -116,7 +116,7 @@ void check_points(std::size_t points, std::uint32_t seed) {
   }
 }
 
-// Rays without a bundle: along the rays of areas, nearly so, and anyhow.
+// Rays without a bundle: along the rays of areas, almost along them, and random.
 std::vector<Ray> stray_rays(const std::vector<InfluenceArea>& areas, Random& random,
                             const Aabb& box, std::size_t count) {
   std::vector<Ray> rays;
@@ -136,16 +136,14 @@ std::vector<Ray> stray_rays(const std::vector<InfluenceArea>& areas, Random& ran
 
 }  // namespace
 
-TEST_CASE("no area that holds a point is missed by the list or the octree") {
-  check_points(3000, 5);
-}
+TEST_CASE("The list and the octree find every area that holds a point") { check_points(3000, 5); }
 
-TEST_CASE("no area that holds a point is missed by the list or the octree, 1e7 points", "[full]") {
+TEST_CASE("The list and the octree find every area that holds a point, 1e7 points", "[full]") {
   check_points(3'400'000, 6);
 }
 
-TEST_CASE("an area that begins or ends at a border between cells is found there") {
-  const float border = 2;  // the middle of all
+TEST_CASE("An area that begins or ends at a border between cells is found there") {
+  const float border = 2;  // the center
   const Aabb all{Vec3(0), Vec3(4)};
   for (int k = 0; k < 3; ++k)
     for (const float at : {std::nextafter(border, 0.0F), border, std::nextafter(border, 4.0F)}) {
@@ -164,7 +162,7 @@ TEST_CASE("an area that begins or ends at a border between cells is found there"
     }
 }
 
-TEST_CASE("an octree is certain of what it says to be certain of") {
+TEST_CASE("An octree's certain candidates hold the whole cell") {
   Random random(9);
   const Aabb box{Vec3(0), Vec3(4)};
   const std::vector<Region> regions = regions_of(random_areas(12, random, box, 2));
@@ -175,7 +173,7 @@ TEST_CASE("an octree is certain of what it says to be certain of") {
     for (const AreaCandidate& candidate : octree.leaf_of(point)) {
       if (!candidate.certain) continue;
       ++certain;
-      // Up to what rounding leaves undecided.
+      // Up to rounding.
       CHECK(exit_distance(regions[candidate.area], {point, 1, Vec3(1, 0, 0), no_bundle}) >= 0);
       CHECK(overlaps(regions[candidate.area], Aabb{point, point}));
     }
@@ -183,7 +181,7 @@ TEST_CASE("an octree is certain of what it says to be certain of") {
   CHECK(certain > 1000);
 }
 
-TEST_CASE("an octree is as deep as it is told, and of bounded size") {
+TEST_CASE("An octree has the depth that is set, and a bounded size") {
   Random random(3);
   const Aabb box{Vec3(0), Vec3(4)};
   const std::vector<Region> regions = regions_of(random_areas(256, random, box, 2));
@@ -197,12 +195,12 @@ TEST_CASE("an octree is as deep as it is told, and of bounded size") {
   }
   const AreaOctree chosen(regions, order);
   CHECK(chosen.depth() >= 3);
-  CHECK(chosen.nodes() <= AreaOctree::usual_nodes);
+  CHECK(chosen.nodes() <= AreaOctree::default_max_nodes);
   const AreaOctree none({}, {});
   CHECK(none.leaf_of(Vec3(0)).empty());
 }
 
-TEST_CASE("rays without a bundle are answered like by brute force, whatever finds their areas") {
+TEST_CASE("Rays without a bundle are answered like by brute force for every kind of top level") {
   std::uint32_t seed = 40;
   for (const Soup& soup : all_soups()) {
     if (soup.indices.empty()) continue;
@@ -226,7 +224,7 @@ TEST_CASE("rays without a bundle are answered like by brute force, whatever find
   }
 }
 
-TEST_CASE("which rays an area is asked depends on where they start and run") {
+TEST_CASE("An area is asked for rays that start in it and run along its rays") {
   const Soup soup = random_soup(2000, 0.05F, Vec3{0}, 10);
   const LocalArea area{make_plane_area(DVec3(0, 5, 0), DVec3(0, -1, 0), DVec2(4), 10), 3};
   const Ray along{Vec3(1, 2, 1), 100, Vec3(0, -1, 0), no_bundle};
@@ -250,7 +248,7 @@ TEST_CASE("which rays an area is asked depends on where they start and run") {
   CHECK_FALSE(asked(TopLevelKind::none, 4, along));
 }
 
-TEST_CASE("of several areas that hold a ray's origin the cheapest answers") {
+TEST_CASE("The cheapest of several areas that hold a ray's origin answers") {
   const Soup soup = random_soup(3000, 0.05F, Vec3{0}, 10);
   const LocalArea wide{make_plane_area(DVec3(0, 9, 0), DVec3(0, -1, 0), DVec2(18), 18), 3};
   const LocalArea narrow{make_plane_area(DVec3(0, 9, 0), DVec3(0, -1, 0), DVec2(2), 9), 3};

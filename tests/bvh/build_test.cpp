@@ -1,4 +1,4 @@
-// The builder: valid, bounded and deterministic trees.
+// Tests that the builder makes valid, bounded and deterministic trees.
 #include "bvh/build.hpp"
 
 #include <tbb/global_control.h>
@@ -29,7 +29,8 @@ bool same_tree(const BinaryTree& a, const BinaryTree& b) {
          std::memcmp(a.nodes.data(), b.nodes.data(), a.nodes.size() * sizeof(a.nodes[0])) == 0;
 }
 
-// Every item in exactly one leaf, every box the union of what is below; returns the depth.
+// Checks that every item is in exactly one leaf and every box is the union of those below. Returns
+// the depth.
 std::uint32_t check_tree(const BinaryTree& tree, const std::vector<Aabb>& boxes,
                          std::uint32_t max_leaf) {
   if (boxes.empty()) {
@@ -67,7 +68,7 @@ std::uint32_t check_tree(const BinaryTree& tree, const std::vector<Aabb>& boxes,
 
 }  // namespace
 
-TEST_CASE("Trees hold every triangle once, in tight boxes") {
+TEST_CASE("A tree holds every triangle once, in tight boxes") {
   for (const test::Soup& soup : test::all_soups()) {
     INFO(soup.name);
     const std::vector<Aabb> boxes = boxes_of(soup);
@@ -91,7 +92,7 @@ TEST_CASE("A tree does not depend on the number of threads", "[threads]") {
   }
 }
 
-TEST_CASE("A tree of a scene scaled by a power of two is the scaled tree") {
+TEST_CASE("Scaling a scene by a power of two scales its tree") {
   const std::vector<Aabb> boxes = boxes_of(test::random_soup(3000, 0.05F, Vec3{1, 2, 3}, 2));
   const BinaryTree expected = build_tree(boxes);
   for (int k = -20; k <= 20; ++k) {
@@ -106,14 +107,14 @@ TEST_CASE("A tree of a scene scaled by a power of two is the scaled tree") {
   }
 }
 
-TEST_CASE("A million identical triangles make a tree as shallow as can be") {
+TEST_CASE("A million identical triangles make a tree of the least depth") {
   const std::vector<Aabb> boxes(1000000, Aabb{{0, 0, 0}, {1, 1, 0}});
   const BinaryTree tree = build_tree(boxes);
   CHECK(check_tree(tree, boxes, BuildConfig{}.max_leaf) <= 20);
 }
 
 TEST_CASE("Lopsided input makes a tree of bounded depth") {
-  // Each box is half the one before: every split by cost takes one off.
+  // Each box is half as large as the one before: every split by cost separates one.
   std::vector<Aabb> boxes;
   for (int i = 0; i < 240; ++i) {
     const float size = std::ldexp(1.0F, 120 - i);
@@ -133,7 +134,7 @@ TEST_CASE("Boxes at the ends of float's range are split") {
   CHECK(check_tree(build_tree(boxes), boxes, BuildConfig{}.max_leaf) <= max_depth);
 }
 
-TEST_CASE("Splits by cost beat splits by halves") {
+TEST_CASE("Splits by cost make cheaper trees than splits by halves") {
   const std::vector<Aabb> boxes = boxes_of(test::random_soup(5000, 0.02F, Vec3{0}, 3));
   const BoxMeasure blind_measure = [](std::span<const Aabb>, std::span<float> measures) {
     std::ranges::fill(measures, 1.0F);
@@ -145,7 +146,7 @@ TEST_CASE("Splits by cost beat splits by halves") {
 }
 
 TEST_CASE("A heuristic decides which axis is split") {
-  // Boxes in a plane grid: split along x only, siblings never overlap in x.
+  // Boxes in a plane grid. Split along x only, siblings never overlap in x.
   std::vector<Aabb> boxes;
   for (int x = 0; x < 32; ++x) {
     for (int y = 0; y < 4; ++y) {
@@ -167,8 +168,8 @@ TEST_CASE("A heuristic decides which axis is split") {
   CHECK(overlaps == 0);
 }
 
-TEST_CASE("A tree or BVH that cannot number its parts is refused") {
-  // Never looked at.
+TEST_CASE("A tree or BVH of too many parts is refused") {
+  // The boxes are never read.
   const std::span<const Aabb> boxes(reinterpret_cast<const Aabb*>(alignof(Aabb)),
                                     std::size_t{1} << 31U);
   CHECK_THROWS_AS(build_tree(boxes), std::length_error);

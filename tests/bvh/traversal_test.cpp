@@ -1,4 +1,4 @@
-// Boxes are tested otherwise than triangles, and triangles side by side: all must follow the rule.
+// Compares the kernels, which test boxes first and four triangles at a time, with the scalar rule.
 #include <hwy/highway.h>
 
 #include <cmath>
@@ -12,7 +12,7 @@ using namespace pah;
 
 namespace {
 
-// Small, flat or far from the origin, often.
+// Often small, flat or far from the origin.
 Triangle random_triangle(test::Random& random) {
   const Aabb unit{Vec3{-1}, Vec3{1}};
   const float size = std::ldexp(1.0F, -static_cast<int>(random.below(20)));
@@ -27,14 +27,14 @@ Triangle random_triangle(test::Random& random) {
   return triangle;
 }
 
-// A corner, or a point of an edge or of the inside, as exactly as floats go.
+// A corner, or a point on an edge or inside, up to float rounding.
 Vec3 point_of(const Triangle& triangle, test::Random& random) {
   const float f = random.below(2) == 0 ? 0.0F : random.uniform(0, 1);
   const float g = random.below(2) == 0 ? 0.0F : random.uniform(0, 1 - f);
   return triangle.a + f * (triangle.b - triangle.a) + g * (triangle.c - triangle.a);
 }
 
-// Where a rounding decides: at edges and corners, along the triangle's plane, along axes.
+// Rays for which rounding decides: at edges and corners, in the triangle's plane, along axes.
 Ray grazing_ray(const Triangle& triangle, test::Random& random) {
   const Vec3 target = point_of(triangle, random);
   const float away = std::ldexp(1.0F, static_cast<int>(random.below(30)) - 15);
@@ -89,7 +89,7 @@ Outcome trace_grazing_rays(std::uint32_t triangles) {
 
 }  // namespace
 
-TEST_CASE("A tree gives the answers of the rule to the last bit, on any instruction set") {
+TEST_CASE("A BVH answers like the scalar rule to the last bit on every instruction set") {
   for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
     INFO(hwy::TargetName(target));
     hwy::SetSupportedTargetsForTest(target);

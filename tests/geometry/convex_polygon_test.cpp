@@ -20,8 +20,8 @@ ConvexPolygon moved(ConvexPolygon p, const DVec2& by) {
 
 }  // namespace
 
-TEST_CASE("Orientation is exact where rounding decides nothing") {
-  // Points within some ulps of a line through the origin: sums of integers tell the truth.
+TEST_CASE("Orientation is exact where rounded arithmetic cannot decide") {
+  // Points within some ulps of a line through the origin: sums of integers are exact.
   std::mt19937 random(1);
   std::uniform_int_distribution<int> ulps(-8, 8);
   int naive_wrong = 0;
@@ -29,7 +29,7 @@ TEST_CASE("Orientation is exact where rounding decides nothing") {
     const double u = std::numeric_limits<double>::epsilon();
     const int ax = ulps(random), ay = ulps(random);
     const DVec2 a(0.5 + ax * u, 0.5 + ay * u), b(12, 12), c(24, 24);
-    // The line is x = y: the sign of ay - ax tells the side.
+    // The line is x = y: the sign of ay - ax gives the side.
     const int expected = (ax > ay) - (ax < ay);  // right of b -> c is below the line
     REQUIRE(orientation(b, c, a) == -expected);
     const double naive = cross(b - a, c - a);
@@ -38,7 +38,7 @@ TEST_CASE("Orientation is exact where rounding decides nothing") {
   CHECK(naive_wrong > 0);
 }
 
-TEST_CASE("A hull drops duplicates and collinear points") {
+TEST_CASE("A hull has neither duplicate nor collinear points") {
   const std::vector<DVec2> points{{0, 0}, {2, 0}, {1, 0}, {2, 2}, {0, 2},
                                   {1, 1}, {2, 2}, {0, 0}, {0, 1}, {2, 1}};
   CHECK(convex_hull(points) == ConvexPolygon{{0, 0}, {2, 0}, {2, 2}, {0, 2}});
@@ -47,7 +47,7 @@ TEST_CASE("A hull drops duplicates and collinear points") {
   CHECK(convex_hull({}).empty());
 }
 
-TEST_CASE("A polygon contains its boundary, whatever its vertices repeat") {
+TEST_CASE("A polygon contains its boundary, even with repeated vertices") {
   const ConvexPolygon repeated{{0, 0}, {1, 0}, {1, 1}, {0, 1}, {0, 1}, {0, 0}};
   for (const DVec2& p : {DVec2(0, 0), DVec2(0.5, 0), DVec2(1, 0.25), DVec2(1, 1)}) {
     CHECK(contains(square, p));
@@ -63,7 +63,7 @@ TEST_CASE("A polygon contains its boundary, whatever its vertices repeat") {
   CHECK_FALSE(contains({}, DVec2(0)));
 }
 
-TEST_CASE("Identical, collinear, touching and contained polygons overlap as they should") {
+TEST_CASE("Identical, collinear, touching and contained polygons overlap correctly") {
   CHECK(overlap_area(square, square) == 1);
 
   const ConvexPolygon shifted = moved(square, {0.5, 0});
@@ -82,7 +82,7 @@ TEST_CASE("Identical, collinear, touching and contained polygons overlap as they
   CHECK(overlap_area(far, far) == 1);
 }
 
-TEST_CASE("The shoelace formula is right, and keeps its digits far from the origin") {
+TEST_CASE("The shoelace formula stays accurate far from the origin") {
   CHECK(area(square) == 1);
   const ConvexPolygon small = moved({{0, 0}, {1e-3, 0}, {0, 1e-3}}, {1e7, 1e7});
   double naive = 0;

@@ -1,6 +1,6 @@
-// Formulas of the thesis's appendix A, and of chapter 5 where they need a region or a polygon only,
-// that are wrong as printed. Each stands here as it is printed, beside what it should have said, so
-// that nobody mends the code back. CONTRIBUTING.md lists the other such tests.
+// Tests of formulas that are wrong as printed in the thesis: those of appendix A, and those of
+// chapter 5 that need only a region or a polygon. Each printed formula stands beside the correct
+// one, so that nobody "corrects" the code back. CONTRIBUTING.md lists all such tests.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -24,7 +24,7 @@ struct Slab {
   float near, far;
 };
 
-// Algorithm A.1, lines 2 to 13; `lower` and `upper` are the min and max of one's choice.
+// Algorithm A.1, lines 2 to 13; `lower` and `upper` are the chosen min and max functions.
 template <typename Lower, typename Upper>
 Slab printed_slabs(const Ray& ray, const Aabb& box, Lower lower, Upper upper) {
   Slab slab{-endless, endless};
@@ -37,7 +37,7 @@ Slab printed_slabs(const Ray& ray, const Aabb& box, Lower lower, Upper upper) {
   return slab;
 }
 
-// Which of two is less or more: by a comparison, or by IEEE 754's functions, which skip NaN.
+// min and max: by a comparison, or by IEEE 754's functions, which skip NaN.
 Slab printed_slabs(const Ray& ray, const Aabb& box) {
   return printed_slabs(
       ray, box, [](float a, float b) { return std::min(a, b); },
@@ -57,7 +57,7 @@ bool meets(const Ray& ray, const Aabb& box) {
   return interval.near <= interval.far;
 }
 
-// Algorithm A.2; what it returns is the ray's t.
+// Algorithm A.2, which returns the ray's t.
 std::optional<double> printed_ray_plane(const Ray& ray, const DVec3& normal,
                                         const DVec3& /*point: of D, which is then not used*/) {
   const double slope = glm::dot(normal, DVec3(ray.direction));
@@ -66,13 +66,13 @@ std::optional<double> printed_ray_plane(const Ray& ray, const DVec3& normal,
   if (t < 0) return {};
   return t;
 }
-// The last formula before it.
+// The last formula before algorithm A.2.
 double printed_ray_plane_formula(const Ray& ray, const DVec3& normal, const DVec3& point) {
   const double d = -glm::dot(normal, point);
   return (-glm::dot(normal, DVec3(ray.origin)) + d) / glm::dot(normal, DVec3(ray.direction));
 }
 
-// Algorithm A.4, in space; `wrapped` says whether hull[N] is hull[0] or what it says.
+// Algorithm A.4, in space; `wrapped`: hull[N] is hull[0], not past the end as printed.
 template <typename Vertices>
 bool printed_inside(const DVec3& p, const Vertices& hull, bool wrapped) {
   const std::size_t n = hull.size();
@@ -84,7 +84,7 @@ bool printed_inside(const DVec3& p, const Vertices& hull, bool wrapped) {
   return true;
 }
 
-// A.3, with A.2 as it is meant.
+// A.3, with A.2 corrected.
 bool printed_ray_triangle(const Ray& ray, const Triangle& triangle) {
   const std::array<DVec3, 3> corners{DVec3(triangle.a), DVec3(triangle.b), DVec3(triangle.c)};
   const DVec3 normal = glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
@@ -148,9 +148,9 @@ double printed_area(const ConvexPolygon& polygon) {
   return std::abs(0.5 * sum);
 }
 
-// A.7 with equation 5.4. `row_of_w` is the matrix's last one: all 0 in the draft, whose (0, 0, -1,
-// 0) stands aside as a fifth column. If that is the row, w is -z, as if one looked along -z, but
-// depth is scaled as if one looked along z.
+// A.7 with equation 5.4. `row_of_w` is the matrix's last row: all 0 in the draft, which has (0, 0,
+// -1, 0) as a fifth column. If that is the row, w is -z, as for a view along -z, but depth is
+// scaled as for a view along z.
 bool printed_in_frustum(const DVec3& p, const DVec2& tan_half, double near, double far,
                         const glm::dvec4& row_of_w) {
   const DVec2 side = near * tan_half;
@@ -195,12 +195,12 @@ TEST_CASE("A ray within a face meets the box, where the printed slab test divide
   }
 }
 
-// A.1: what is rounded has to be widened.
+// A.1: a rounded interval must be widened.
 TEST_CASE("A ray past an edge meets the box, which the printed slab test misses by a rounding") {
   const Ray ray{{0.3F, -0.3F, 0}, endless, {10, 25, 0}};
   const Aabb box{{1.5F, -1, -1}, {3, 2.7F, 1}};
-  // It enters at the lower x before it leaves at the upper y: exact, as double holds differences of
-  // these floats and their products with small integers.
+  // The ray enters at the lower x before it leaves at the upper y. This is exact: double holds
+  // differences of these floats and their products with small integers.
   REQUIRE((double{box.min.x} - double{ray.origin.x}) * 25 <
           (double{box.max.y} - double{ray.origin.y}) * 10);
   const Slab slab = printed_slabs(ray, box);
@@ -209,12 +209,12 @@ TEST_CASE("A ray past an edge meets the box, which the printed slab test misses 
 }
 
 // A.2, line 9 and the formula before it.
-TEST_CASE("A ray crosses a plane where it is, not where the printed formulas put it") {
+TEST_CASE("A ray crosses a plane where it is, not where the printed formulas place it") {
   const Ray ray{{1, 2, 10}, endless, {0, 0, -2}};
   const DVec3 point(7, -5, 4), normal(0, 0, 3);
   const Plane plane = plane_through(point, normal);
-  CHECK(intersection(plane, ray) == 3.0);               // from z = 10 to z = 4, two at a time
-  CHECK(printed_ray_plane(ray, normal, point) == 5.0);  // as if through the origin
+  CHECK(intersection(plane, ray) == 3.0);               // from z = 10 to z = 4 by 2
+  CHECK(printed_ray_plane(ray, normal, point) == 5.0);  // as if the plane ran through the origin
   CHECK(printed_ray_plane_formula(ray, normal, point) == 7.0);
   // Beyond the origin's plane the printed algorithm finds nothing.
   const Ray beyond{{0, 0, -1}, endless, {0, 0, -1}};
@@ -239,7 +239,7 @@ TEST_CASE("A ray crosses a plane once, in front of its origin and not beyond its
 }
 
 // A.3 with A.8's `<= 0`.
-TEST_CASE("A ray through a shared edge hits, which the printed test lets slip between") {
+TEST_CASE("A ray through a shared edge hits, though it misses both triangles by the printed test") {
   const Triangle below{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
   const Triangle above{{1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
   for (const Vec3& on_edge : {Vec3(0.5F, 0.5F, 0), Vec3(0.25F, 0.75F, 0), Vec3(1, 0, 0)}) {
@@ -254,7 +254,7 @@ TEST_CASE("A ray through a shared edge hits, which the printed test lets slip be
 }
 
 // Algorithm A.4, line 7.
-TEST_CASE("The printed inside-outside test reads a vertex that there is not") {
+TEST_CASE("The printed inside-outside test reads past the last vertex") {
   const std::array<DVec3, 3> hull{DVec3(0, 0, 0), DVec3(1, 0, 0), DVec3(0, 1, 0)};
   CHECK(printed_inside({0.25, 0.25, 0}, hull, true));
   CHECK_THROWS_AS(printed_inside({0.25, 0.25, 0}, hull, false), std::out_of_range);
@@ -262,22 +262,22 @@ TEST_CASE("The printed inside-outside test reads a vertex that there is not") {
 }
 
 // A.8 and algorithm A.4, line 10.
-TEST_CASE("A polygon contains its boundary, which the printed test leaves out") {
+TEST_CASE("A polygon contains its boundary, which the printed test excludes") {
   const std::vector<DVec3> hull = in_space(square);
   for (const DVec2& p : {DVec2(0, 0), DVec2(2, 0), DVec2(4, 1), DVec2(4, 4)}) {
     CHECK_FALSE(printed_inside(DVec3(p, 0), hull, true));
     CHECK(contains(square, p));
   }
   CHECK(printed_inside({1, 2, 0}, hull, true));
-  // The edge between equal vertices has no side to be on.
+  // The edge between equal vertices has no side.
   const ConvexPolygon repeated{{0, 0}, {4, 0}, {4, 4}, {0, 4}, {0, 4}};
   CHECK_FALSE(printed_inside({1, 2, 0}, in_space(repeated), true));
   CHECK(contains(repeated, DVec2(1, 2)));
 }
 
-// A.9.2: collinear edges have a delta of 0, and a horizontal or vertical edge no room for a
+// A.9.2: collinear edges have a delta of 0, and a horizontal or vertical edge leaves no room for
 // rounding.
-TEST_CASE("The printed crossing of edges is not a number, or off by an ulp") {
+TEST_CASE("The printed crossing of edges is NaN, or off by an ulp") {
   CHECK_FALSE(printed_crossing({0, 0}, {1, 0}, {0.5, 0}, {2, 0}).has_value());
   CHECK_FALSE(printed_crossing({0.1, 0.1}, {0.5, 0.1}, {0.5, 0.1}, {0.5, 0.8}).has_value());
   const ConvexPolygon unit{{0, 0}, {1, 0}, {1, 1}, {0, 1}};
@@ -286,8 +286,8 @@ TEST_CASE("The printed crossing of edges is not a number, or off by an ulp") {
 }
 
 // A.9.
-TEST_CASE("Identical hulls overlap, which the printed culling denies") {
-  // Corners are no inner points, and crossings of edges miss their range by an ulp.
+TEST_CASE("Identical hulls overlap, which the printed culling misses") {
+  // As printed, corners are not inner points, and crossings of edges miss their range by an ulp.
   const ConvexPolygon rectangle{{0.1, 0.1}, {0.5, 0.1}, {0.5, 0.8}, {0.1, 0.8}};
   const ConvexPolygon triangle{{0.81, 0.25}, {0.3, 0.66}, {0.34, 0.42}};
   CHECK(printed_culling(rectangle, rectangle).empty());
@@ -296,7 +296,7 @@ TEST_CASE("Identical hulls overlap, which the printed culling denies") {
   CHECK(overlap_area(triangle, triangle) == area(triangle));
   CHECK(area(rectangle) == Approx(0.4 * 0.7));
   CHECK(area(triangle) == Approx(0.5 * (0.41 * 0.47 - 0.51 * 0.17)));
-  // Where neither touches a vertex or an edge of the other, it is right.
+  // The printed test is right where neither touches a vertex or an edge of the other.
   const ConvexPolygon turned{{2, -1}, {5, 2}, {2, 5}, {-1, 2}};
   CHECK(area(printed_culling(square, turned)) == Approx(14));
   CHECK(overlap_area(square, turned) == Approx(14));
@@ -307,14 +307,15 @@ TEST_CASE("The printed determinants are no areas") {
   const ConvexPolygon rectangle{{1, 0}, {3, 0}, {3, 5}, {1, 5}};
   CHECK(printed_area(rectangle) != Approx(10));
   CHECK(area(rectangle) == 10);
-  // Twice the triangle's area is one determinant: a move by a vector changes it as printed only.
+  // Twice the triangle's area is one determinant, which a translation does not change; the printed
+  // one changes.
   CHECK(printed_area({{0, 0}, {2, 0}, {0, 3}}) != Approx(printed_area({{1, 1}, {3, 1}, {1, 4}})));
   CHECK(area(ConvexPolygon{{0, 0}, {2, 0}, {0, 3}}) == 3);
   CHECK(area(ConvexPolygon{{1, 1}, {3, 1}, {1, 4}}) == 3);
 }
 
 // A.7 with equation 5.4.
-TEST_CASE("No point is in a frustum by the printed matrix, whichever way it looks") {
+TEST_CASE("No point is in a frustum by the printed matrix, in either direction of view") {
   const double near = 1, far = 10;
   const Region ours = Frustum{DVec3(0), DMat3(1.0), DVec2(1), near, far};
   for (const glm::dvec4& row_of_w : {glm::dvec4(0), glm::dvec4(0, 0, -1, 0)})

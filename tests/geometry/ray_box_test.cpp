@@ -1,4 +1,4 @@
-// Slab test against exact integer arithmetic.
+// Compares the slab test with exact integer arithmetic.
 #include "geometry/ray_box.hpp"
 
 #include <algorithm>
@@ -15,7 +15,7 @@ struct IntegerCase {
   std::array<std::int64_t, 3> origin, direction, low, high;
 };
 
-// Small numbers are frequent, so that faces, edges and zeros are hit exactly.
+// Small numbers are frequent, so that rays hit faces, edges and zeros exactly.
 IntegerCase random_case(test::Random& random) {
   IntegerCase c{};
   const std::uint32_t range = random.below(2) == 0 ? 4 : 1U << 16U;
@@ -40,7 +40,8 @@ struct Fraction {
   }
 };
 
-// Whether origin + t * direction is in the closed box for some t >= 0, exactly; `margin` widens.
+// Whether origin + t * direction is in the closed box for some t >= 0, exactly; `margin` widens the
+// box.
 bool exact_hit(const IntegerCase& c, std::int64_t margin) {
   Fraction near{0, 1};
   Fraction far{std::int64_t{1} << 40U, 1};
@@ -93,7 +94,7 @@ void compare(std::uint32_t count) {
       ++hits;
       false_misses += found ? 0 : 1;
     } else if (found && !exact_hit(c, 1)) {
-      ++false_hits;  // off by a whole unit, of at most 2^17 across
+      ++false_hits;  // misses by a whole unit in coordinates of at most 2^17
     }
   }
   CHECK(hits > count / 20);

@@ -1,4 +1,5 @@
-// The shared hit rule: watertight, never outside the triangle, exactly scale-invariant.
+// Tests the ray-triangle rule: it is watertight, never hits outside the triangle, and is exactly
+// scale-invariant.
 #include "geometry/ray_triangle.hpp"
 
 #include <algorithm>
@@ -13,7 +14,7 @@ using test::Soup;
 
 namespace {
 
-// A closed mesh around `center`: latitudes and longitudes, with shared vertices at the poles.
+// A closed mesh of latitudes and longitudes around `center`, with shared vertices at the poles.
 Soup sphere(std::uint32_t rings, double radius, const Vec3& center) {
   Soup soup;
   soup.name = "sphere";
@@ -47,7 +48,7 @@ Soup sphere(std::uint32_t rings, double radius, const Vec3& center) {
   return soup;
 }
 
-// Axis-aligned, each face a grid of cells.
+// An axis-aligned closed box, each face a grid of cells.
 Soup cube(std::uint32_t cells, double radius, const Vec3& center) {
   Soup soup;
   soup.name = "cube";
@@ -75,7 +76,7 @@ Soup cube(std::uint32_t cells, double radius, const Vec3& center) {
   return soup;
 }
 
-// A point on an edge or at a vertex, as exactly as floats go.
+// A point on an edge or at a vertex, up to float rounding.
 Vec3 edge_point(const Triangle& triangle, test::Random& random) {
   if (random.below(2) == 0) return triangle.a;
   const float f = random.below(2) == 0 ? 0.5F : random.uniform(0, 1);
@@ -91,7 +92,7 @@ void count_leaks(std::uint32_t rays_per_mesh) {
         const Soup mesh = round ? sphere(16, radius, center) : cube(8, radius, center);
         INFO(mesh.name << ", radius " << radius << ", offset " << offset);
         const Triangles triangles = mesh.triangles();
-        // The mesh under test is tiny: every triangle is tried, so that no culling hides a leak.
+        // Tests every triangle of the small mesh, so that no culling hides a leak.
         const auto accelerator = make_brute_force(triangles);
         test::Random random(7);
         const auto r = static_cast<float>(radius);
@@ -114,8 +115,8 @@ void count_leaks(std::uint32_t rays_per_mesh) {
   }
 }
 
-// Where a hit is, in double, and how far outside the triangle's box that may be: 30 roundings of
-// the distance to its vertices (ray_triangle.hpp).
+// The hit point in double, and the largest allowed distance outside the triangle's box: 30
+// roundings of the distance to its vertices (ray_triangle.hpp).
 bool inside_box(const Ray& ray, const Triangle& triangle, const TriangleHit& hit) {
   const Aabb box = triangle.bounds();
   const Vec3 reach = glm::max(glm::abs(box.min - ray.origin), glm::abs(box.max - ray.origin));
@@ -149,7 +150,7 @@ TEST_CASE("No ray leaves a closed mesh through its edges and vertices, 1e7 rays"
   count_leaks(250000);
 }
 
-TEST_CASE("Needles and triangles seen edge-on are hit inside their box only") {
+TEST_CASE("Needles and triangles seen edge-on are hit only inside their box") {
   test::Random random(3);
   std::uint32_t hits = 0;
   std::uint32_t outside = 0;
@@ -160,7 +161,7 @@ TEST_CASE("Needles and triangles seen edge-on are hit inside their box only") {
     const float f = random.uniform(0, 1);
     const float g = random.uniform(0, 1 - f);
     const Vec3 target = triangle.a + f * (triangle.b - triangle.a) + g * (triangle.c - triangle.a);
-    if (random.below(2) == 0) {  // in the plane, but for rounding
+    if (random.below(2) == 0) {  // in the plane, up to rounding
       ray.origin = target - random.uniform(-3, 3) * (triangle.b - triangle.a) -
                    random.uniform(-3, 3) * (triangle.c - triangle.a);
     }
@@ -214,7 +215,7 @@ TEST_CASE("Hits agree with double arithmetic where the triangle is well-shaped")
   CHECK(compared > 10000);
 }
 
-TEST_CASE("A ray does not hit the triangle whose corner or inside it leaves") {
+TEST_CASE("A ray does not hit the triangle on whose corner or inside it starts") {
   test::Random random(5);
   const Aabb unit{Vec3{-1}, Vec3{1}};
   std::uint32_t self_hits = 0;
@@ -230,7 +231,7 @@ TEST_CASE("A ray does not hit the triangle whose corner or inside it leaves") {
   CHECK(self_hits == 0);
 }
 
-TEST_CASE("What is hit from near a triangle's surface is in front, beyond doubt") {
+TEST_CASE("A hit from near a triangle's surface is certainly in front of the origin") {
   test::Random random(13);
   const Aabb unit{Vec3{-1}, Vec3{1}};
   std::uint32_t hits = 0;
@@ -254,7 +255,7 @@ TEST_CASE("What is hit from near a triangle's surface is in front, beyond doubt"
   CHECK(behind == 0);
 }
 
-TEST_CASE("A scene scaled by a power of two is hit at t scaled by it, to the last bit") {
+TEST_CASE("Scaling a scene by a power of two scales t by it to the last bit") {
   const Soup soup = test::random_soup(50, 0.5F, {3, -2, 1}, 6);
   const std::vector<Ray> rays = test::rays_for(soup, 2000, 8);
   for (int k = -20; k <= 20; ++k) {

@@ -122,7 +122,7 @@ TEST_CASE("Touching counts as overlap, a gap does not") {
   CHECK_FALSE(overlaps(turned, Triangle{{-9, 0, 9}, {9, 0, 9}, {0, 0, 9}}));
 }
 
-TEST_CASE("A ray leaves a region where it says, or a little before") {
+TEST_CASE("The exit distance is at most a rounding short of where the ray leaves the region") {
   std::mt19937 random(2);
   std::uniform_real_distribution<double> uniform(-1, 1);
   int inside = 0;
@@ -148,8 +148,8 @@ TEST_CASE("A ray leaves a region where it says, or a little before") {
       ++inside;
       REQUIRE(t >= 0);
       REQUIRE(t < inf);
-      // The point at t, to the float: its float neighborhood touches the region, and one a
-      // little further has left it.
+      // The point at t, rounded to float: its float neighborhood touches the region; that of a
+      // point slightly further does not.
       const auto at = [&](double s) { return DVec3(ray.origin) + s * DVec3(ray.direction); };
       const auto point = [&](double s) {
         const Vec3 p(at(s));
@@ -173,8 +173,8 @@ TEST_CASE("A ray leaves a region where it says, or a little before") {
   CHECK(exit_distance(Aabb{{0, 0, 0}, {1, 1, 1}}, axis) == 0);
 }
 
-// What `contains` and `exit_distance` admit, `overlaps` covers.
-TEST_CASE("The predicates agree about what rounding leaves undecided") {
+// overlaps() covers every point that contains() and exit_distance() allow.
+TEST_CASE("The predicates agree about points within rounding error of the border") {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> uniform(-1, 1);
   int borderline = 0;
@@ -197,7 +197,7 @@ TEST_CASE("The predicates agree about what rounding leaves undecided") {
   CHECK(borderline > 1000);
 }
 
-TEST_CASE("A dilated shape reaches as far beyond every face") {
+TEST_CASE("A dilated shape extends every face by the dilation") {
   const Region regions[] = {Aabb{{-1, -1, 0}, {1, 1, 1}}, Obb{{0, 0, 0.5}, DMat3(1.0), {1, 1, 0.5}},
                             Frustum{{0, 0, 0}, DMat3(1.0), {1, 1}, 0, 1}};
   for (const Region& region : regions) {

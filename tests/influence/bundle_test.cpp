@@ -1,4 +1,4 @@
-// What influence areas say of their bundles, against rays cast at random.
+// Compares influence areas with random rays of their bundles.
 #include <algorithm>
 #include <pah/influence/bundle_area.hpp>
 #include <pah/influence/facing.hpp>
@@ -15,7 +15,7 @@ struct Segment {
   double from, to;
 };
 
-// A ray of the bundle, from where it enters the region to where it leaves it.
+// A random ray of the bundle, from its entry into the region to its exit.
 Segment sample(const InfluenceArea& area, Shapes& shapes) {
   if (const auto* plane = std::get_if<PlaneArea>(&area)) {
     const Obb& b = plane->box;
@@ -26,7 +26,7 @@ Segment sample(const InfluenceArea& area, Shapes& shapes) {
   const Frustum& f = point.frustum;
   for (;;) {
     const DVec3 d(f.tan_half * DVec2(shapes.uniform(), shapes.uniform()), 1);
-    // Solid angle is cos^3 of the plane's area: rejection, independent of any formula under test.
+    // Solid angle is cos^3 times the plane's measure. Rejection uses no formula under test.
     if (point.measure == PointMeasure::solid_angle &&
         shapes.uniform(0, 1) > std::pow(glm::length(d), -3))
       continue;
@@ -62,7 +62,7 @@ void compare_shares(unsigned seed, int areas, int rays) {
       area = PointArea{shapes.frustum(1),
                        compared % 3 == 1 ? PointMeasure::plane : PointMeasure::solid_angle};
     Aabb box{Vec3(shapes.vector()), Vec3(shapes.vector())};
-    if (compared % 2 == 0) {  // a small one, on a ray
+    if (compared % 2 == 0) {  // a small box on a ray
       const Segment s = sample(area, shapes);
       const DVec3 center = s.origin + glm::mix(s.from, s.to, shapes.uniform(0.5, 1)) * s.direction;
       box = {Vec3(center + 0.1 * shapes.vector()), Vec3(center + 0.1 * shapes.vector())};
@@ -91,24 +91,24 @@ PointArea down(PointMeasure measure, double near = 0, double far = 10) {
 
 }  // namespace
 
-TEST_CASE("The hit probability is the share of the bundle's rays that meet the box") {
+TEST_CASE("The hit probability is the fraction of the bundle's rays that meet the box") {
   compare_shares(1, 60, 100000);
 }
 TEST_CASE("The hit probability, many rays", "[full]") { compare_shares(2, 300, 1000000); }
 
-TEST_CASE("The eye's place decides a point area's probability") {
+TEST_CASE("A point area's probability depends on the place of its eye") {
   for (const PointMeasure measure : {PointMeasure::plane, PointMeasure::solid_angle}) {
     const InfluenceArea area = down(measure);
-    CHECK(hit_probability(area, Aabb{{-1, 4, -1}, {1, 6, 1}}) == 1);         // inside
-    CHECK(hit_probability(area, Aabb{{-1, 4, -1}, {1, 5, 1}}) == 1);         // on its face
-    CHECK(hit_probability(area, Aabb{{0, 5, 0}, {1, 6, 1}}) == 1);           // on its corner
-    CHECK(hit_probability(area, Aabb{{-1, 5.5F, -1}, {1, 6, 1}}) == 0);      // behind
-    CHECK(hit_probability(area, Aabb{{2, 5.1F, 2}, {3, 6, 3}}) == 0);        // behind, aside
+    CHECK(hit_probability(area, Aabb{{-1, 4, -1}, {1, 6, 1}}) == 1);     // inside
+    CHECK(hit_probability(area, Aabb{{-1, 4, -1}, {1, 5, 1}}) == 1);     // on its face
+    CHECK(hit_probability(area, Aabb{{0, 5, 0}, {1, 6, 1}}) == 1);       // on its corner
+    CHECK(hit_probability(area, Aabb{{-1, 5.5F, -1}, {1, 6, 1}}) == 0);  // behind
+    CHECK(hit_probability(area, Aabb{{2, 5.1F, 2}, {3, 6, 3}}) == 0);    // behind and to the side
     CHECK(hit_probability(area, Aabb{{-90, -90, -90}, {90, -6, 90}}) == 0);  // beyond the far face
     CHECK(hit_probability(area, Aabb{{-90, -90, -90}, {90, 4, 90}}) == Approx(1));
     CHECK(hit_probability(area, Aabb{}) == 0);
-    // Crossing the eye plane: all directions with x > 0.25 z. The solid angle of what is missing
-    // is twice that of a rectangle with a corner on the axis, atan(ab / sqrt(1 + a^2 + b^2)).
+    // A box across the eye's plane: all directions with x > 0.25 z. The rest of the solid angle is
+    // twice that of a rectangle with a corner on the axis, atan(ab / sqrt(1 + a^2 + b^2)).
     const double angle = 0.5 - 2 * std::atan(0.25 / std::sqrt(2.0625)) / cross_section(area);
     CHECK(hit_probability(area, Aabb{{0.5F, 3, -90}, {90, 90, 90}}) ==
           Approx(measure == PointMeasure::plane ? 0.375 : angle).epsilon(1e-12));
@@ -119,7 +119,7 @@ TEST_CASE("The eye's place decides a point area's probability") {
   CHECK(projected_hull(down(PointMeasure::plane), Aabb{{-1, 6, -1}, {1, 7, 1}}).empty());
 }
 
-TEST_CASE("The two measures differ away from the axis") {
+TEST_CASE("The two measures of a point area differ away from its axis") {
   const Aabb center{{-0.5F, 0, -0.5F}, {0.5F, 0.5F, 0.5F}};
   const Aabb corner{{4, 0, 4}, {5, 0.5F, 5}};
   const double plane = hit_probability(down(PointMeasure::plane), corner) /
@@ -131,7 +131,7 @@ TEST_CASE("The two measures differ away from the axis") {
   CHECK(6 * cross_section(down(PointMeasure::solid_angle)) == Approx(4 * std::acos(-1.0)));
 }
 
-TEST_CASE("Areas scale by powers of two without a trace") {
+TEST_CASE("Scaling an area by a power of two changes no digit") {
   Shapes shapes(5);
   for (int i = 0; i < 2000; ++i) {
     PointArea point{shapes.frustum(1), PointMeasure::plane};
@@ -150,30 +150,30 @@ TEST_CASE("Areas scale by powers of two without a trace") {
   }
 }
 
-TEST_CASE("The mean direction of an area is that of its rays") {
+TEST_CASE("The mean absolute direction of an area is that of its rays") {
   const DVec3 down(0, -1, 0);
   const DVec3 sun =
       mean_absolute_direction(make_plane_area(DVec3(0), DVec3(3, 0, -4), DVec2(1), 1));
   CHECK(glm::distance(sun, DVec3(0.6, 0, 0.8)) < 1e-12);
-  // Of a narrow one that of its axis.
+  // A narrow area has that of its axis.
   const DVec3 narrow = mean_absolute_direction(make_point_area(DVec3(0), down, DVec2(0.01), 0, 1));
   CHECK(narrow.y == Approx(1).epsilon(1e-4));
   CHECK(narrow.x < 0.01);
-  // A face of a cube seen from its middle: a sixth of all directions, over which |d| has a mean of
-  // 1/2 for each axis, so with y the largest and x and z alike: y + 2 x = 3/2.
+  // A cube's face seen from the center: a sixth of all directions, over which |d| has a mean of 1/2
+  // for each axis. With y the largest component and x and z equal: y + 2 x = 3/2.
   constexpr double right_angle = 1.5707963267948966;
   const DVec3 face =
       mean_absolute_direction(make_point_area(DVec3(0), down, DVec2(right_angle), 0, 1));
   CHECK(face.y + 2 * face.x == Approx(1.5).epsilon(1e-3));
   CHECK(face.x == Approx(face.z));
   CHECK(face.y > 0.7);
-  // Uniform in the picture plane: more of them lean.
+  // Uniform in the picture plane: more rays are far from the axis.
   const DVec3 plane = mean_absolute_direction(
       make_point_area(DVec3(0), down, DVec2(right_angle), 0, 1, PointMeasure::plane));
   CHECK(plane.y < face.y);
 }
 
-TEST_CASE("The expected area of a spread bundle is the mean over its directions") {
+TEST_CASE("The projected area of a spread bundle is the mean over its directions") {
   Shapes shapes(6);
   std::vector<DVec3> directions;
   for (int i = 0; i < 1000; ++i) directions.push_back(shapes.vector() + DVec3(0.3, -1, 0));
@@ -184,9 +184,9 @@ TEST_CASE("The expected area of a spread bundle is the mean over its directions"
     const PlaneArea wide = make_plane_area(-1000.0 * glm::normalize(d), d, DVec2(1000), 2000);
     mean += projected_area(wide, box) / 1000;
   }
-  CHECK(spread.area(box) == Approx(mean));
-  CHECK(spread.area(Aabb{}) == 0);
-  // One direction: the thesis's area; its sum of three parallelograms at one vertex agrees.
+  CHECK(spread(box) == Approx(mean));
+  CHECK(spread(Aabb{}) == 0);
+  // One direction: equals the thesis's sum of three parallelograms at one vertex.
   const DVec3 d = glm::normalize(DVec3(1, -2, 0.5));
   const DMat3 axes = orthonormal_basis(d);
   const auto project2 = [&](const DVec3& v) {
@@ -198,9 +198,9 @@ TEST_CASE("The expected area of a spread bundle is the mean over its directions"
     const DVec2 &u = e[k], &v = e[(k + 1) % 3];
     parallelograms += std::abs(u.x * v.y - u.y * v.x);
   }
-  CHECK(ParallelBundleArea(glm::abs(d)).area(box) == Approx(parallelograms));
+  CHECK(ParallelBundleArea(glm::abs(d))(box) == Approx(parallelograms));
   const HitProbability probability(down(PointMeasure::plane));
-  CHECK(probability.area(Aabb{{-0.5F, 0, -0.5F}, {0.5F, 4, 0.5F}}) == Approx(0.25));
+  CHECK(probability(Aabb{{-0.5F, 0, -0.5F}, {0.5F, 4, 0.5F}}) == Approx(0.25));
 }
 
 TEST_CASE("Directions are affine within the tolerance, either way") {

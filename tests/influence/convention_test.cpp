@@ -1,4 +1,4 @@
-// The one convention of projections, against GLM's matrices.
+// Compares the convention of projections with GLM's matrices.
 #include <glm/gtc/matrix_transform.hpp>
 #include <pah/influence/box_sectors.hpp>
 
@@ -9,8 +9,8 @@ using namespace pah;
 
 namespace {
 
-// GLM's view looks along -z with x to the right; ours has (right, up, forward) right-handed, so
-// seen along forward its first axis points left.
+// GLM's view looks along -z with x to the right. Ours is a right-handed (right, up, forward), whose
+// first axis points left as seen along forward.
 DMat4 view_of(const DVec3& eye, const DMat3& axes) {
   return glm::lookAtRH(eye, eye + axes[2], axes[1]);
 }
@@ -20,7 +20,7 @@ double distance(const DVec2& a, const DVec2& b) { return glm::length(a - b); }
 
 }  // namespace
 
-// In place of the thesis's equations 5.2 and 5.4.
+// Replaces the thesis's equations 5.2 and 5.4.
 TEST_CASE("Projections agree with GLM's matrices") {
   Shapes shapes(1);
   for (int i = 0; i < 1000; ++i) {
@@ -54,7 +54,7 @@ TEST_CASE("Every sector has an outline of four or six corners") {
         const int faces = std::abs(x) + std::abs(y) + std::abs(z);
         CHECK(outline_from(sector).size == (faces == 0 ? 0 : faces == 1 ? 4 : 6));
       }
-  // From inside, on a face, and from afar.
+  // Eyes inside, on a face, and far away.
   const Aabb box{{0, 0, 0}, {1, 1, 1}};
   CHECK(sector_of_eye({0.5, 0.5, 0.5}, box).inside());
   CHECK(sector_of_eye({1, 0.5, 0.5}, box).inside());

@@ -1,6 +1,6 @@
-// Formulas of the thesis's section 5.4, how an area sees a box, that are wrong or silent as
-// printed. Each stands here as it is printed, beside what it should have said, so that nobody mends
-// the code back. CONTRIBUTING.md lists the other such tests.
+// Tests of formulas of the thesis's section 5.4, the projection of a box, that are wrong or
+// incomplete as printed. Each printed formula stands beside the correct one, so that nobody
+// "corrects" the code back. CONTRIBUTING.md lists all such tests.
 #include <pah/influence/box_sectors.hpp>
 #include <pah/influence/influence_area.hpp>
 
@@ -35,16 +35,16 @@ unsigned printed_index(const DVec3& eye, const Aabb& box) {
   return i;
 }
 
-// The sides that an index names: bits 5 to 0 are back, front, top, bottom and, of x, two whose
-// order is one's reading.
+// The sides that an index stands for. Bits 5 to 0 are back, front, top, bottom and the two sides of
+// x, whose order the thesis leaves open.
 BoxSector sector_of_bits(unsigned index, bool bit_0_is_left) {
   const auto bit = [&](unsigned k) { return static_cast<int>(index >> k & 1U); };
   const int x = bit(1) - bit(0);
   return {bit_0_is_left ? x : -x, bit(3) - bit(2), bit(4) - bit(5)};
 }
 
-// Regions without bounds that matter: only the order of corners is asked of them. The axes of
-// parallel rays are integers, not of unit length, so that collinear corners stay so.
+// Only the order of corners is taken from these regions; their bounds do not matter. The axes of
+// parallel rays are integers, not of unit length, so that collinear corners stay collinear.
 PointArea towards_center(const DVec3& eye) {
   return make_point_area(eye, -eye, DVec2(3), 0, 100, PointMeasure::plane);
 }
@@ -53,7 +53,7 @@ PlaneArea along(const DVec3& direction) {
   return {Obb{DVec3(0), DMat3(beside, glm::cross(direction, beside), direction), DVec3(40)}};
 }
 
-// Section 5.4.2: the corners that the hull table names, divided by w, and A.10 as it is meant.
+// Section 5.4.2: the corners of the hull table, divided by w, and A.10 corrected.
 double printed_projected_area(const PointArea& area, const Aabb& box) {
   ConvexPolygon hull;
   for (const std::uint8_t i : outline_from(sector_of_eye(area.frustum.eye, box)).span()) {
@@ -94,8 +94,8 @@ TEST_CASE("A hull table whose bits name left for right gives no hull of a box") 
                                               outline_from(sector_of_eye(eye, box)).span()));
         CHECK(exact_answer::is_projected_hull(plane, box,
                                               outline_from(sector_of_direction(direction)).span()));
-        // By one reading the algorithms name the same sides as ours, by the other they do so only
-        // where the box is seen neither from the left nor from the right.
+        // With one order the algorithms give our sides. With the other they do so only where the
+        // box is seen neither from the left nor from the right.
         CHECK(sector_of_bits(printed_index(eye, box), true) == sector);
         CHECK(sector_of_bits(printed_index(direction), true) == sector);
         const auto misread = [&](unsigned index) {
@@ -109,7 +109,7 @@ TEST_CASE("A hull table whose bits name left for right gives no hull of a box") 
 }
 
 // Equation 5.2.
-TEST_CASE("What is off center is where it is, which the printed orthographic matrix shifts") {
+TEST_CASE("What is off center keeps its place, which the printed orthographic matrix shifts") {
   const double left = 2, right = 6, bottom = -1, top = 1, far = 10;
   const auto printed_orthographic = [&](const DVec3& p) {
     return DVec3(2 / (right - left) * p.x + (left + right) / 2,
@@ -123,7 +123,7 @@ TEST_CASE("What is off center is where it is, which the printed orthographic mat
   }
 }
 
-// Section 5.4.2 is silent on all of these.
+// Section 5.4.2 treats none of these cases.
 TEST_CASE("A box around the eye is hit by all rays, though the printed outline is empty") {
   const Aabb box{{-1, 4, -1}, {1, 6, 1}};
   CHECK(printed_index(DVec3(0, 5, 0), box) == 0);
@@ -136,28 +136,30 @@ TEST_CASE("A box behind the eye is hit by no rays, though the printed projection
   check_areas(downwards(0), Aabb{{-0.5F, 6, -0.5F}, {0.5F, 7, 0.5F}}, 1, 0);
 }
 
-TEST_CASE("A box across the plane of the eye is seen before it, not mirrored as printed") {
+TEST_CASE("A box across the plane of the eye is seen in front of it, not mirrored as printed") {
   const Aabb box{{0.5F, 3, -1}, {4, 6, 1}};
-  // 2 below the eye its sides have tangents of 1/4 and 1/2; the side at x = 1/2 is seen up to the
-  // eye's height: all rays of x > 1/4 but those that pass it at |z| > 1, beyond tangents of 2 x.
+  // 2 below the eye the box's sides have tangents of 1/4 and 1/2. The side at x = 1/2 is seen up to
+  // the eye's height: by all rays of x > 1/4 except those that pass it at |z| > 1, beyond tangents
+  // of 2 x.
   const double truth = 2 * (0.5 * (0.5 + 1) * 0.25 + 0.5);
   CHECK(std::abs(printed_projected_area(downwards(0), box) - truth) > 0.5);
   CHECK(projected_area(downwards(0), box) == Approx(truth));
   CHECK(exact_answer::projected_area(downwards(0), box) == Approx(truth));
 }
 
-TEST_CASE("What a box has before the near plane is not hit, though it is printed") {
+TEST_CASE(
+    "What a box has before the near plane is not hit, though the printed outline includes it") {
   const Aabb across{{-0.5F, 2.5F, -0.5F}, {0.5F, 4.5F, 0.5F}};  // depths of 1/2 to 5/2
   check_areas(downwards(0), across, 4, 4);
   check_areas(downwards(2), across, 4, 0.25);  // at a depth of 2, tangents of -1/4 to 1/4
   check_areas(downwards(3), across, 4, 0);
 }
 
-// Section 5.4.2: area on the picture plane stands for the chance to be hit.
-TEST_CASE("An isotropic light's rays crowd about the axis, which area on a plane overlooks") {
+// Section 5.4.2 takes area on the picture plane for the probability of a hit.
+TEST_CASE("An isotropic light's rays crowd about the axis, which area on a plane ignores") {
   const Aabb middle{{-0.5F, 0, -0.5F}, {0.5F, 4, 0.5F}};  // tangents of -1/2 to 1/2
-  // A rectangle of tangents a and b with a corner on the axis has the solid angle
-  // atan(a b / sqrt(1 + a^2 + b^2)); the whole is a face of a cube, a sixth of the sphere.
+  // A rectangle of tangents a and b with a corner on the axis has the solid angle atan(a b / sqrt(1
+  // + a^2 + b^2)). The cross-section is a face of a cube, a sixth of the sphere.
   const double whole = 4 * std::acos(-1.0) / 6;
   const double truth = 4 * std::atan(0.25 / std::sqrt(1.5)) / whole;
   CHECK(truth > 0.38);

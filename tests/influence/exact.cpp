@@ -43,7 +43,7 @@ Frame frame_of(const Region& region) {
   return std::visit([](const auto& r) { return frame_of(r); }, region);
 }
 
-// A region as half-spaces n . q + d >= 0 of its local coordinates.
+// A region as half-spaces n . q + d >= 0 in its local coordinates.
 struct HalfSpace {
   Point normal;
   Number offset;

@@ -1,5 +1,5 @@
-// The oracle: the same questions answered in exact rational arithmetic, by CGAL where it has an
-// answer. No CGAL header is seen outside exact.cpp.
+// The reference for projections and overlaps, in exact rational arithmetic, by CGAL where it has
+// the operation. Only exact.cpp includes CGAL.
 #pragma once
 
 #include <pah/influence/box_sectors.hpp>
@@ -8,11 +8,11 @@
 namespace exact_answer {
 
 // Whether the corners, in this order, are the counter-clockwise convex hull of the whole box as the
-// area projects it. Every corner must be before the eye. Collinear corners are allowed.
+// area projects it. Every corner must be in front of the eye. Collinear corners are allowed.
 bool is_projected_hull(const pah::InfluenceArea& area, const pah::Aabb& box,
                        std::span<const std::uint8_t> corners);
 
-// What projected_area() means: the area of the projection of box and region's common part.
+// The exact projected_area(): the measure of the projection of the box's part in the region.
 double projected_area(const pah::InfluenceArea& area, const pah::Aabb& box);
 
 bool contains(const pah::Region& region, const pah::Vec3& point);

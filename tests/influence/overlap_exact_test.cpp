@@ -1,4 +1,4 @@
-// Regions against exact arithmetic: nothing is ever called separate that touches.
+// Compares regions with exact arithmetic: what touches is never found separate.
 #include <algorithm>
 
 #include "catch.hpp"
@@ -22,7 +22,7 @@ struct Tally {
   }
 };
 
-// Corners of regions and boxes, on which things are made to touch.
+// Corners of regions and boxes, at which shapes are made to touch.
 std::vector<Vec3> places_of(const Region& region) {
   std::vector<Vec3> places;
   const RegionShape shape = shape_of(region);
@@ -33,8 +33,8 @@ std::vector<Vec3> places_of(const Region& region) {
   return places;
 }
 
-// A region whose face passes a point up to the rounding of its own parameters, with something that
-// reaches from the point away from it: contact is then a matter of the last bit.
+// A region whose face passes through a point up to the rounding of its parameters, and a shape that
+// extends from the point away from the region: the last bit decides about contact.
 struct Contact {
   Region region;
   Vec3 point;
@@ -143,7 +143,7 @@ void compare_overlaps(unsigned seed, int count) {
   report("triangles", triangles);
   report("on a grid", dyadic);
   report("in contact up to rounding", contacts);
-  // Enough of either, and separation is found but for contacts within rounding.
+  // Both outcomes occur often enough, and separation is missed only for contacts within rounding.
   for (const Tally& t : {boxes, triangles, dyadic, contacts}) {
     CHECK(t.touching > count / 10);
     CHECK(t.apart > count / 20);
@@ -173,7 +173,7 @@ void compare_points(unsigned seed, int count) {
     inside += truth;
     if (ours && !truth) {
       ++undecided;
-      // Only within rounding: a region 1e-12 larger has it.
+      // A point within rounding error: a region larger by 1e-12 contains it.
       Region larger = region;
       if (auto* b = std::get_if<Obb>(&larger)) {
         b->half_size += 1e-13 * (b->half_size.x + b->half_size.y + b->half_size.z);
@@ -195,12 +195,14 @@ void compare_points(unsigned seed, int count) {
 
 }  // namespace
 
-TEST_CASE("Overlap of regions is never denied where exact arithmetic affirms it") {
+TEST_CASE("Regions overlap whatever they overlap in exact arithmetic") {
   compare_overlaps(1, 4000);
 }
-TEST_CASE("Overlap of regions, many times", "[full]") { compare_overlaps(2, 1000000); }
-
-TEST_CASE("Containment of points is never denied where exact arithmetic affirms it") {
-  compare_points(3, 20000);
+TEST_CASE("Regions overlap whatever they overlap in exact arithmetic, many times", "[full]") {
+  compare_overlaps(2, 1000000);
 }
-TEST_CASE("Containment of points, many times", "[full]") { compare_points(4, 1000000); }
+
+TEST_CASE("Regions contain whatever they contain in exact arithmetic") { compare_points(3, 20000); }
+TEST_CASE("Regions contain whatever they contain in exact arithmetic, many times", "[full]") {
+  compare_points(4, 1000000);
+}

@@ -1,4 +1,4 @@
-// Outlines, projected areas and overlap areas against exact arithmetic.
+// Compares outlines, projected areas and overlap areas with exact arithmetic.
 #include <algorithm>
 
 #include "catch.hpp"
@@ -22,7 +22,7 @@ PointMeasure some_measure(Shapes& shapes) {
   return shapes.integer(0, 1) == 0 ? PointMeasure::plane : PointMeasure::solid_angle;
 }
 
-// Mutually orthogonal integer vectors, of which the last leads into the opposite sector.
+// Mutually orthogonal integer vectors. The last leads into the opposite sector.
 DMat3 integer_axes(Shapes& shapes, BoxSector sector) {
   const DVec3 forward(-sector.x * shapes.integer(1, 1000), -sector.y * shapes.integer(1, 1000),
                       -sector.z * shapes.integer(1, 1000));
@@ -44,7 +44,7 @@ void compare_outlines(unsigned seed, int count) {
       REQUIRE(sector_of_direction(parallel.box.axes[2]) == sector);
       REQUIRE(exact_answer::is_projected_hull(parallel, box, outline_from(sector).span()));
 
-      // An eye in this sector; sometimes on the plane of a face.
+      // An eye in this sector, sometimes on the plane of a face.
       DVec3 eye(0), forward(0);
       for (int k = 0; k < 3; ++k) {
         const double t = shapes.integer(0, 2) == 0 ? shapes.integer(0, 1) : shapes.uniform(0, 1);
@@ -64,7 +64,7 @@ struct Error {
   double worst = 0;
   int compared = 0, empty = 0;
 
-  // Relative to the truth, but for boxes that are seen edge-on: there rounding alone is left.
+  // A relative error, except for boxes seen edge-on, whose area is rounding alone.
   void add(double ours, double truth, double section) {
     REQUIRE(std::abs(ours - truth) <= 1e-9 * truth + 1e-15 * section);
     if (truth < 1e-13 * section) {
@@ -76,8 +76,8 @@ struct Error {
   }
 };
 
-// Areas and boxes at every place that matters: crossing the eye plane, the near and far faces and
-// the sides, around the region, behind it, with the eye in them or on a face.
+// Areas and boxes in all critical positions: across the eye's plane, the near and far faces and the
+// sides, around the region, behind it, and with the eye inside or on a face.
 struct Scene {
   InfluenceArea area;
   Aabb box;
@@ -148,7 +148,7 @@ void compare_children(unsigned seed, int count) {
   double worst = 0;
   for (int i = 0; i < count; ++i) {
     const auto [area, whole] = random_scene(shapes);
-    const Aabb& parent = whole;  // Clang before 16 lets no lambda capture a binding
+    const Aabb& parent = whole;  // Clang before 16 cannot capture a structured binding
     Aabb child = parent;
     for (int k = 0; k < 3; ++k) {
       const auto within = [&] {
@@ -162,7 +162,7 @@ void compare_children(unsigned seed, int count) {
     const double outer = projected_area(area, parent);
     const double inner = projected_area(area, child);
     INFO("child " << inner << " parent " << outer);
-    // Of a flat box that is seen edge-on, rounding alone is left.
+    // The area of a flat box seen edge-on is rounding alone.
     const double nothing = 1e-16 * cross_section(area);
     REQUIRE(inner <= outer * (1 + 1e-12) + nothing);
     if (outer < 1e3 * nothing) continue;
@@ -231,7 +231,7 @@ void compare_polygons(unsigned seed, int count) {
     REQUIRE(ours <= smaller);
     INFO("ours " << ours << " truth " << truth << " smaller " << smaller);
     REQUIRE(std::abs(ours - truth) <= 1e-9 * smaller);
-    // The inputs' own rounding is 1e-16 of a sliver's length, and more of its width.
+    // Rounding of the input is 1e-16 of a sliver's length, and a larger part of its width.
     if (kind != 4 && truth > 1e-6 * smaller) REQUIRE(std::abs(ours - truth) <= 1e-9 * truth);
     if (smaller > 0) worst = std::max(worst, std::abs(ours - truth) / smaller);
     ++(truth > 0 ? overlapping : disjoint);

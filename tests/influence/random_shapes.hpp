@@ -1,4 +1,4 @@
-// Random shapes for the comparisons with exact arithmetic, at all scales and at hard places.
+// Random shapes, of all scales and in critical positions, for comparisons with exact arithmetic.
 #pragma once
 
 #include <cmath>
@@ -20,14 +20,14 @@ struct Shapes {
   // Powers of ten from 1e-6 to 1e7.
   double scale() { return std::pow(10.0, integer(-6, 7)); }
 
-  // A direction: mostly any, sometimes along an axis or a diagonal of two.
+  // A random direction, sometimes along an axis or a diagonal of two axes.
   pah::DVec3 direction() {
     if (integer(0, 3) != 0) return vector();
     pah::DVec3 d(integer(-1, 1), integer(-1, 1), integer(-1, 1));
     return d == pah::DVec3(0) ? pah::DVec3(0, -1, 0) : d;
   }
 
-  // A box of some size in [-reach, reach]^3: sometimes flat, a segment or a point.
+  // A random box in [-reach, reach]^3, sometimes flat, a segment or a point.
   pah::Aabb box(double reach) {
     const double size = reach * std::pow(10.0, uniform(-2.5, 0));
     const pah::DVec3 center = reach * vector();

@@ -1,5 +1,5 @@
-// Shadow segments made to go wrong in the space of a light: through edges within a few last bits,
-// in the planes of triangles, at the borders of cells and faces, from surfaces, and of all sizes.
+// Tests light grids with adversarial shadow segments: through edges within a few last bits, in the
+// planes of triangles, at the borders of cells and faces, from surfaces, and of all sizes.
 
 #include <array>
 #include <chrono>
@@ -23,7 +23,7 @@ constexpr std::array<float, 4> tangents{0, 1e-6F, 0.005F, 0.3F};
 Vec3 in_cube(Random& random) { return random.in_box({Vec3{-1}, Vec3{1}}); }
 Vec3 unit_vector(Random& random) { return glm::normalize(in_cube(random) + Vec3{0, 0, 1e-3F}); }
 
-// Each coordinate by two of its last bits at most.
+// Moves each coordinate by at most two of its last bits.
 Vec3 nudged(Vec3 p, Random& random) {
   for (int axis = 0; axis < 3; ++axis) {
     const int steps = static_cast<int>(random.below(5)) - 2;
@@ -33,7 +33,7 @@ Vec3 nudged(Vec3 p, Random& random) {
   return p;
 }
 
-// By one last bit, so that what lies across that axis is in front beyond doubt.
+// Moves by one last bit along an axis: what lies across that axis is then certainly in front.
 Vec3 just_behind(Vec3 p, const Vec3& direction) {
   const Vec3 size = glm::abs(direction);
   const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
@@ -48,7 +48,7 @@ float dyadic(Random& random) {
          1;
 }
 
-// In its plane, also well outside of it.
+// A point in the triangle's plane, possibly well outside of it.
 Vec3 in_plane_of(const Triangle& t, Random& random) {
   return Vec3(DVec3(t.a) + double{random.uniform(-2, 3)} * (DVec3(t.b) - DVec3(t.a)) +
               double{random.uniform(-2, 3)} * (DVec3(t.c) - DVec3(t.a)));
@@ -70,7 +70,8 @@ Ray segment(const ParallelBundle& /*light*/, const Vec3& from, const Vec3& towar
   return {from, infinity, toward, bundle};
 }
 
-// On a border of a point light's cells, or a seam or corner of its faces; for suns, of world space.
+// A point on a border of a point light's cells, or on a seam or corner of its faces; for suns, of
+// world space.
 Vec3 on_border(const PointBundle& light, float size, Random& random) {
   Vec3 away{1, dyadic(random), dyadic(random)};
   if (random.below(3) == 0) away.y = random.below(2) == 0 ? 1.0F : -1.0F;
@@ -84,7 +85,7 @@ Vec3 on_border(const ParallelBundle& /*light*/, float size, Random& random) {
   return size * Vec3{dyadic(random), dyadic(random), dyadic(random)};
 }
 
-// Where the light sees no depth.
+// A place in the light's own plane, at depth 0.
 Vec3 beside(const PointBundle& light, float size, Random& random) {
   Vec3 from = light.eye + size * in_cube(random);
   for (int i = 0; i < 2; ++i) {
@@ -98,7 +99,7 @@ Vec3 beside(const ParallelBundle& light, float size, Random& random) {
   return size * (any - glm::dot(any, light.toward) * light.toward);
 }
 
-// Triangles, and one of them that rays aim at as often as at all others.
+// Triangles, and one of them at which half of the rays aim.
 struct Target {
   Triangles triangles;
   std::uint32_t aim = 0;
@@ -145,7 +146,7 @@ Ray adversarial_ray(const Bundle& light, const Target& target, Random& random) {
   return segment(light, from, direction, random);
 }
 
-// What a grid is held against, and how much.
+// The reference of a comparison, and its size.
 class Trial {
  public:
   Trial(Soup soup, bool many, std::uint32_t seed)
@@ -154,7 +155,7 @@ class Trial {
         size_(largest_of(bounds_of(soup_.triangles()).extent())),
         random_(seed) {}
 
-  // Points and suns of every kind. Segments asked.
+  // Compares points and suns of every kind. Returns the number of segments.
   std::size_t run(std::uint32_t rays_a_light) {
     const std::uint32_t triangles = static_cast<std::uint32_t>(soup_.indices.size());
     const std::uint32_t aim = random_.below(triangles);
@@ -212,7 +213,7 @@ class Trial {
   std::size_t asked_ = 0;
 };
 
-// Not more than 1e-3 or 1e-6 of their length wide.
+// Needles, at most 1e-3 or 1e-6 of their length wide.
 Soup slivers(std::uint32_t count, Random& random) {
   Soup soup{"slivers", {}, {}};
   for (std::uint32_t i = 0; i < count; ++i) {
@@ -228,7 +229,7 @@ Soup scaled(Soup soup, float scale) {
   return soup;
 }
 
-// Of sizes from 10^least to 10^most, all about one point.
+// Triangles of sizes from 10^least to 10^most around one point.
 Soup all_sizes(std::uint32_t count, float least, float most, Random& random) {
   Soup soup{"all sizes", {}, {}};
   for (std::uint32_t i = 0; i < count; ++i) {
@@ -238,7 +239,7 @@ Soup all_sizes(std::uint32_t count, float least, float most, Random& random) {
   return soup;
 }
 
-// Across all axes, with corners at multiples of powers of two.
+// Triangles perpendicular to all axes, with corners at multiples of powers of two.
 Soup dyadic_cards(std::uint32_t count, Random& random) {
   Soup soup{"dyadic cards", {}, {}};
   for (std::uint32_t i = 0; i < count; ++i) {
@@ -254,9 +255,10 @@ Soup dyadic_cards(std::uint32_t count, Random& random) {
   return soup;
 }
 
-// Of some last bits only, across an axis, far from the middle of them all but along that axis:
-// depths of suns are rounded by more than a last bit along it, and all of a triangle is in front of
-// what is that behind. Four times each, so that no block holds two: its depth is the least.
+// Triangles of a few last bits, perpendicular to an axis and far from the center along the others:
+// depths of suns are rounded by more than a last bit along that axis, and every point of a triangle
+// is in front of an origin one last bit behind it. Each is repeated four times, so that no block
+// holds two different ones: a block's depth is its least.
 Soup last_bits(std::uint32_t count, Random& random) {
   Soup soup{"last bits", {}, {}};
   for (std::uint32_t i = 0; i < count; ++i) {
@@ -275,8 +277,8 @@ Soup last_bits(std::uint32_t count, Random& random) {
   return soup;
 }
 
-// What a light sees ends where it ends, so that a ray beside it is beside all cells. Of one that is
-// thin there are as many cells as there may be.
+// The light's view ends at the triangles' border: a ray beside them is outside of all cells. Thin
+// ones get the largest number of cells.
 Soup lone_triangle(Random& random) {
   Soup soup{"lone triangle", {}, {}};
   constexpr std::array<float, 4> widths{1, 1e-3F, 1e-6F, 0};
@@ -306,7 +308,7 @@ std::vector<Soup> adversarial_soups(std::uint32_t count, std::uint32_t seed) {
 
 }  // namespace
 
-// Many triangles are held against the BVH, which other tests hold against brute force.
+// Large scenes are compared with the BVH, which other tests compare with brute force.
 TEST_CASE("Adversarial segments to a light are answered like brute force") {
   std::uint32_t seed = 1;
   std::size_t segments = 0;

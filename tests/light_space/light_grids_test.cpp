@@ -1,4 +1,4 @@
-// A look-up in light space never changes an answer.
+// Tests that a look-up in a light grid changes no answer.
 
 #include <pah/accel/light_grids.hpp>
 
@@ -19,7 +19,7 @@ namespace {
 constexpr std::uint32_t bundle = 7;
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
-// With room around, where rays may start.
+// A box with room around the scene, where rays may start.
 Soup with_room(Soup soup, float size) {
   for (const float s : {-size, size}) soup.add({s, s, s}, {s, s, s * 0.99F}, {s, s * 0.99F, s});
   return soup;
@@ -32,11 +32,11 @@ Ray to_light(const PointBundle& light, const Vec3& from, Random& random) {
 Ray to_light(const ParallelBundle& light, const Vec3& from, Random& random) {
   Vec3 toward = light.toward;
   if (light.tangent > 0) {
-    // Half of them lean as far as they may.
+    // Half of the rays are tilted by the largest allowed angle.
     const Vec3 across = glm::cross(toward, random.in_box({Vec3{-1}, Vec3{1}}));
     const float share = random.below(2) == 0 ? 1 : random.uniform(0, 1);
     toward += share * light.tangent * across / std::max(glm::length(across), 0x1p-10F);
-    // Some lean farther, which traverse.
+    // Some are tilted further: these traverse the BVH.
     if (light.tangent >= 0.1F && random.below(8) == 0)
       toward[static_cast<int>(random.below(3))] = 0;
     toward *= random.uniform(0.5F, 2);
@@ -46,7 +46,7 @@ Ray to_light(const ParallelBundle& light, const Vec3& from, Random& random) {
 Vec3 away_from(const PointBundle& light, const Vec3& at) { return at - light.eye; }
 Vec3 away_from(const ParallelBundle& light, const Vec3& /*at*/) { return -light.toward; }
 
-// Rays that start on triangles, or just off them, or behind them, or anywhere.
+// Rays that start on triangles, slightly off them, behind them, or anywhere.
 template <typename Bundle>
 std::vector<Ray> rays_to(const Bundle& light, const Soup& soup, std::uint32_t count,
                          std::uint32_t seed) {
@@ -100,7 +100,7 @@ struct Setup {
 
 }  // namespace
 
-TEST_CASE("A grid of a light answers like brute force, bit for bit") {
+TEST_CASE("A light grid answers like brute force, bit for bit") {
   Random random(5);
   for (const Soup& soup : all_soups()) {
     if (soup.indices.empty()) continue;
@@ -128,18 +128,18 @@ TEST_CASE("Rays of a light's bundle are looked up and do not traverse") {
     std::vector<std::uint8_t> occluded(rays.size());
     TraversalCounts counts;
     grids->occluded(rays, occluded, &counts);
-    // Traversals meet inner nodes.
+    // Only traversals visit inner nodes.
     return 1 - static_cast<double>(counts.inner_nodes) / static_cast<double>(rays.size());
   };
   CHECK(share_looked_up(PointBundle{{0.5F, 1.5F, 0.25F}}) == 1);
   CHECK(share_looked_up(ParallelBundle{glm::normalize(Vec3{1, 2, 3})}) == 1);
   CHECK(share_looked_up(ParallelBundle{glm::normalize(Vec3{1, 2, 3}), 0.005F}) == 1);
-  // From without the cone rays traverse.
+  // Rays from outside the cone traverse.
   CHECK(share_looked_up(PointBundle{{30, 40, 30}, {0, -1, 0}, 0.95F}) == 1);
   CHECK(share_looked_up(PointBundle{{30, 40, 30}, {0, -1, 0}, 0.1F}) < 0);
 }
 
-TEST_CASE("A grid of a light does not depend on the number of threads", "[threads]") {
+TEST_CASE("A light grid does not depend on the number of threads", "[threads]") {
   const Soup soup = with_room(random_soup(20'000, 0.02F, Vec3{0}, 14), 1.5F);
   const PointBundle light{{0.5F, 1.25F, 0.25F}};
   const std::vector<Ray> rays = rays_to(light, soup, 4000, 15);
@@ -163,7 +163,7 @@ TEST_CASE("A grid of a light does not depend on the number of threads", "[thread
   }
 }
 
-TEST_CASE("A grid of a light on a surface, an edge or a vertex answers like brute force") {
+TEST_CASE("A light grid on a surface, an edge or a vertex answers like brute force") {
   Random random(6);
   for (const Soup& soup :
        {grid(40, 0.2F, 1), grid(40, 0, 2), random_soup(2000, 0.1F, Vec3{0}, 3)}) {
@@ -176,7 +176,7 @@ TEST_CASE("A grid of a light on a surface, an edge or a vertex answers like brut
       for (const float tangent : {0.0F, 0.005F})
         setup.check(ParallelBundle{toward, tangent}, 2000, 9);
     }
-    // In the plane of a flat grid.
+    // Rays in the plane of a flat grid.
     setup.check(PointBundle{{1.5F, 0, 0.25F}}, 2000, 10);
     setup.check(ParallelBundle{glm::normalize(Vec3{1, 0, 0.5F})}, 2000, 11);
   }
@@ -210,7 +210,7 @@ TEST_CASE("Rays that only claim to be of a light's bundle traverse") {
   check_same(expected, ask(*make_light_grids(setup.soup.triangles(), lights), rays));
 }
 
-TEST_CASE("A grid of a light stays small where large triangles overlap") {
+TEST_CASE("A light grid stays small where large triangles overlap") {
   Soup soup{"cards", {}, {}};
   for (int i = 0; i < 4000; ++i) {
     const float z = static_cast<float>(i) * 0x1p-12F;
@@ -224,7 +224,7 @@ TEST_CASE("A grid of a light stays small where large triangles overlap") {
   for (const LightGridReport& report : grids->reports()) CHECK(report.bytes < 4000 * 500);
 }
 
-TEST_CASE("A grid of a light of few or degenerate triangles answers like brute force") {
+TEST_CASE("A light grid of few or degenerate triangles answers like brute force") {
   Soup nothing{"nothing", {}, {}};
   Soup point{"point", {}, {}};
   point.add(Vec3{1}, Vec3{1}, Vec3{1});

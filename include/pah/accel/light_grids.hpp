@@ -1,5 +1,5 @@
-// Grids in the space of lights over one BVH: shadow rays to a point or along a direction are looked
-// up, all others traverse.
+// Light grids over one BVH. Shadow rays to a point or along a direction are looked up in their
+// light's grid; all other rays traverse the BVH.
 #pragma once
 
 #include <pah/accel/accelerator.hpp>
@@ -7,17 +7,18 @@
 
 namespace pah {
 
-// Rays that name `bundle` are looked up; those that are not of it after all traverse.
+// A light's bundle. Rays that name `bundle` are looked up; those that do not belong to `rays`
+// traverse.
 struct LightBundle {
   std::uint32_t bundle = no_bundle;
   ExactBundle rays;
 };
 
-// The cells of a grid, each with its list of blocks of triangles.
+// Statistics of a grid's cells, each of which lists blocks of triangles.
 struct GridLists {
   std::uint64_t cells = 0;
   std::uint64_t empty_cells = 0;
-  std::uint64_t entries = 0;  // of all lists
+  std::uint64_t entries = 0;  // the sum over all lists
   std::uint64_t longest_list = 0;
 };
 
@@ -30,16 +31,16 @@ struct LightGridReport {
 
 class LightGrids : public Accelerator {
  public:
-  // Builds one more, by the calling arena's threads, or drops one. Not while rays are asked.
+  // Adds a grid, built by the calling arena's threads, or removes one. Not while rays are traced.
   virtual void add(const LightBundle& bundle) = 0;
   virtual void remove(std::uint32_t bundle) = 0;
 
-  // Of each bundle that has a grid, ascending.
+  // One report for each bundle with a grid, in ascending order.
   [[nodiscard]] virtual std::vector<LightGridReport> reports() const = 0;
   [[nodiscard]] virtual double bvh_build_seconds() const = 0;
 };
 
-// Built by the calling arena's threads.
+// The calling arena's threads build the BVH and the grids.
 [[nodiscard]] std::unique_ptr<LightGrids> make_light_grids(
     Triangles triangles, const std::vector<LightBundle>& bundles = {});
 

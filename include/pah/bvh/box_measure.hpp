@@ -1,5 +1,5 @@
-// By what boxes are measured. One indirect call measures many, so that a builder is compiled once
-// whatever the measure.
+// Measures of boxes. One indirect call measures many boxes, so that one compiled builder serves
+// every measure.
 #pragma once
 
 #include <functional>
@@ -8,22 +8,22 @@
 
 namespace pah {
 
-// Writes the measure of each box: proportional to the chance that a ray hits it, only ratios
-// matter. Whatever it writes for an empty box is not used. Called by several threads at a time.
+// Writes the measure of each box, which is proportional to the probability that a ray hits it: only
+// ratios matter. The measure of an empty box is not used. Several threads call it at a time.
 using BoxMeasure = std::function<void(std::span<const Aabb>, std::span<float>)>;
 
-// A measure from what has `area(box)`.
+// A BoxMeasure made of a measure(box) for one box.
 template <typename OneBox>
 struct EachBox {
-  OneBox one;
+  OneBox one_box;
 
   void operator()(std::span<const Aabb> boxes, std::span<float> measures) const {
-    for (std::size_t i = 0; i < boxes.size(); ++i) measures[i] = one.area(boxes[i]);
+    for (std::size_t i = 0; i < boxes.size(); ++i) measures[i] = one_box(boxes[i]);
   }
 };
 template <typename OneBox>
-[[nodiscard]] BoxMeasure each_box(OneBox one) {
-  return EachBox<OneBox>{one};
+[[nodiscard]] BoxMeasure each_box(OneBox one_box) {
+  return EachBox<OneBox>{one_box};
 }
 
 [[nodiscard]] inline float measure_of(const BoxMeasure& measure, const Aabb& box) {

@@ -1,16 +1,16 @@
-// How much work a batch of rays was.
+// Counters of the work that a batch of rays takes.
 #pragma once
 
 #include <cstdint>
 
 namespace pah {
 
-// Counting is compiled out where no counts are asked for.
+// Kernels without counting are compiled separately: they pay nothing for these.
 struct TraversalCounts {
   std::uint64_t nodes = 0;        // inner nodes and leaves visited
-  std::uint64_t inner_nodes = 0;  // of these
+  std::uint64_t inner_nodes = 0;  // inner nodes visited
   std::uint64_t triangles = 0;    // ray-triangle tests
-  std::uint64_t blocks = 0;       // of up to four triangles, tested side by side
+  std::uint64_t blocks = 0;       // tests of up to four triangles side by side
 
   TraversalCounts& operator+=(const TraversalCounts& other) {
     nodes += other.nodes;

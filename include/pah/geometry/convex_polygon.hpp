@@ -1,7 +1,7 @@
 // Convex polygons in the plane.
 //
-// Sides are decided by exact signs, so that collinear, touching and identical polygons need no
-// tolerance. Coordinates must be finite and products of two of them within double's range.
+// Orientation tests are exact, so that collinear points and touching or identical polygons need no
+// tolerance. Coordinates must be finite, and products of two of them within double's range.
 #pragma once
 
 #include <pah/geometry/vec.hpp>
@@ -20,7 +20,8 @@ using ConvexPolygon = std::vector<DVec2>;
 // The smallest convex polygon around the points, without repeated or collinear vertices.
 [[nodiscard]] ConvexPolygon convex_hull(std::span<const DVec2> points);
 
-// By the shoelace formula (thesis, A.10), about the first vertex: large coordinates do not cancel.
+// The area, by the shoelace formula (thesis, A.10) relative to the first vertex: large coordinates
+// do not cancel.
 [[nodiscard]] double area(std::span<const DVec2> polygon);
 
 // Whether the point lies in the polygon or on its boundary (thesis, A.8). Exact.

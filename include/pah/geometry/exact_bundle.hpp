@@ -1,4 +1,4 @@
-// Bundles whose rays all run through one point or along one direction, or almost.
+// Bundles whose rays all run through one point, or along one direction up to a small angle.
 #pragma once
 
 #include <pah/geometry/ray.hpp>
@@ -7,16 +7,17 @@
 namespace pah {
 
 // Segments that end at `eye`: their direction is eye - origin, rounded, and t_max at most 1. They
-// start within a cone about `axis`, of unit length, whose half-angle has a sine of `sine`, or
-// anywhere if that is 1.
+// start within a cone about the unit vector `axis` whose half-angle has the sine `sine`, or
+// anywhere if `sine` is 1.
 struct PointBundle {
   Vec3 eye{0};
   Vec3 axis{0, 0, 1};
   float sine = 1;
 };
 
-// Rays whose direction is `toward`, bit by bit, of unit length up to rounding; or, if `tangent` is
-// not 0, any that differs from it by an angle of about that tangent at most, in [0, 1].
+// Rays whose direction equals `toward`, of unit length up to rounding, to the last bit. If
+// `tangent` is not 0, it is in [0, 1], and directions may differ from `toward` by an angle of at
+// most about that tangent.
 struct ParallelBundle {
   Vec3 toward{0, 1, 0};
   float tangent = 0;

@@ -1,4 +1,4 @@
-// Planes, and where rays cross them.
+// Planes, and their intersections with rays.
 #pragma once
 
 #include <optional>
@@ -6,8 +6,9 @@
 
 namespace pah {
 
-// The points p with dot(normal, p) + offset = 0. The normal is of any length but 0; if it is 1,
-// dot(normal, p) + offset is how far p lies from the plane on the side that the normal points to.
+// The points p with dot(normal, p) + offset = 0. The normal may have any length but 0. If its
+// length is 1, dot(normal, p) + offset is the signed distance of p from the plane, positive on the
+// side to which the normal points.
 struct Plane {
   DVec3 normal{0, 0, 1};
   double offset = 0;
@@ -17,10 +18,10 @@ struct Plane {
   return {normal, -glm::dot(normal, point)};
 }
 
-// The t in (0, t_max] at which a ray crosses a plane, in units of the ray's direction; rounded, in
-// double. Nothing for a ray along the plane, not even one within it: there is no one point to name,
-// as none is where a ray lies in a triangle's plane. Nothing if the ray starts on the plane.
-// Thesis, A.2, where algorithm A.2 forgets the offset and the formula before it the sign of it.
+// The t in (0, t_max] at which a ray crosses a plane, in units of the ray's direction, rounded to
+// double. Nothing for a ray parallel to the plane, even within it, and nothing if the ray starts on
+// the plane. Thesis, A.2: algorithm A.2 omits the offset, and the formula before it has its sign
+// wrong.
 [[nodiscard]] inline std::optional<double> intersection(const Plane& plane, const Ray& ray) {
   const double slope = glm::dot(plane.normal, DVec3(ray.direction));
   if (slope == 0) return {};

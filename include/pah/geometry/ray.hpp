@@ -24,7 +24,7 @@ struct Ray {
 
 inline constexpr std::uint32_t no_triangle = 0xFFFFFFFFU;
 
-// The nearest intersection; equal distances go to the lower triangle index.
+// The nearest intersection. Of equal distances, the lower triangle index wins.
 struct Hit {
   float t = std::numeric_limits<float>::infinity();
   float u = 0;  // barycentric weight of the triangle's second vertex, in [0, 1]

@@ -1,9 +1,10 @@
 // Convex regions of space: boxes, oriented boxes and frusta.
 //
-// A region is a closed set. What rounding leaves undecided (some 1e-14 of the region's size) counts
-// as inside, and the predicates agree about that: every triangle or box that meets the segment
-// between two points which `contains` admits, or the part of a ray up to `exit_distance`, is one
-// that `overlaps` admits. Nothing is ever called separate that exact arithmetic says touches.
+// A region is a closed set. Points within rounding error of its border (some 1e-14 of its size)
+// count as inside, and the predicates are consistent: take a segment between two points for which
+// contains() is true, or a ray up to its exit_distance(). For every triangle or box that this
+// segment meets, overlaps() is true. overlaps() is never false where exact arithmetic finds that
+// the two touch.
 #pragma once
 
 #include <array>
@@ -36,33 +37,33 @@ using Region = std::variant<Aabb, Obb, Frustum>;
 
 [[nodiscard]] bool contains(const Aabb& region, const Vec3& point);  // thesis, A.6
 [[nodiscard]] bool contains(const Obb& region, const Vec3& point);
-// Projects the point as the thesis does (A.7), by the frustum's axes in place of a matrix.
+// Projects the point as in the thesis (A.7), but by the frustum's axes in place of a matrix.
 [[nodiscard]] bool contains(const Frustum& region, const Vec3& point);
 [[nodiscard]] bool contains(const Region& region, const Vec3& point);
 
 // Whether the whole box lies in the region; an empty box lies in every one.
 [[nodiscard]] bool contains(const Region& region, const Aabb& box);
 
-// How far along a ray that starts in the region every point is still in it, rounded down; 0 if the
-// ray starts outside. In units of the ray's direction; does not look at t_max.
+// The t up to which a ray that starts in the region stays in it, rounded down; 0 if the ray starts
+// outside. Ignores t_max.
 [[nodiscard]] float exit_distance(const Region& region, const Ray& ray);
 
-// What overlap tests need of a region. Make it once where many boxes or triangles are tested.
+// A region prepared for overlap tests. Make it once to test many boxes or triangles.
 struct RegionShape {
-  DVec3 origin{0};                  // what the vertices are relative to
+  DVec3 origin{0};                  // of the vertices' coordinates
   std::array<DVec3, 8> vertices{};  // corners, pushed outwards by the rounding bound
   std::array<DVec3, 6> normals{};   // directions of the faces' normals
   std::array<DVec3, 6> edges{};     // directions of the edges
   int normal_count = 0, edge_count = 0;
   Aabb box;  // encloses the vertices, rounded outwards
 };
-// `dilation` pushes the faces outwards by a length >= 0: by the rounding error of whatever decides
-// hits, where a hit that exact arithmetic places just outside must not be lost.
+// `dilation` pushes the faces outwards by a length >= 0, such as the rounding error of a
+// ray-triangle test, so that a hit just outside is not lost.
 [[nodiscard]] RegionShape shape_of(const Region& region, double dilation = 0);
 
 [[nodiscard]] Aabb enclosing_box(const Region& region);
 
-// Whether two closed boxes have a point in common; exact. An empty box has none.
+// Whether two closed boxes share a point; exact. An empty box has no points.
 [[nodiscard]] bool overlaps(const Aabb& a, const Aabb& b);
 [[nodiscard]] bool overlaps(const RegionShape& region, const Aabb& box);
 [[nodiscard]] bool overlaps(const RegionShape& region, const Triangle& triangle);

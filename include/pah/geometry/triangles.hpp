@@ -1,4 +1,4 @@
-// What accelerators see of a scene: indexed triangles, not owned.
+// Indexed triangles, not owned: the geometry that accelerators work on.
 #pragma once
 
 #include <pah/geometry/aabb.hpp>
@@ -14,7 +14,7 @@ struct Triangle {
   }
 };
 
-// Every index is in range and every coordinate finite: whoever fills the arrays sees to that.
+// Every index must be in range and every coordinate finite. Neither is checked.
 struct Triangles {
   std::span<const Vec3> positions;
   std::span<const UVec3> indices;

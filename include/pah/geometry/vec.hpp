@@ -1,7 +1,7 @@
-// The vector types of the project: GLM's, under short names.
+// Vector types: GLM's, under short names.
 //
-// Right-handed, y up. World positions are double until a World recenters them (scene/world.hpp);
-// everything that a ray touches is float.
+// Coordinates are right-handed with y up. World positions are double until a World recenters them
+// (scene/world.hpp); all geometry that rays are traced against is float.
 #pragma once
 
 #include <cstdint>

@@ -1,7 +1,7 @@
-// From where a box is looked at, and the outline that is seen from there.
+// The sector of space around a box in which an eye lies, and the box's outline as seen from there.
 //
-// Along each axis an eye is below the box (-1), above it (1) or between its faces (0): 27 sectors,
-// of which the middle one is the box itself. Corner i of a box takes max.x if bit 0 of i is set,
+// Along each axis an eye is below the box (-1), above it (1) or between its faces (0). That makes
+// 27 sectors; the middle one is the box itself. Corner i of a box takes max.x if bit 0 of i is set,
 // max.y if bit 1 is, max.z if bit 2 is.
 #pragma once
 
@@ -25,7 +25,7 @@ struct BoxSector {
   friend constexpr bool operator==(const BoxSector&, const BoxSector&) = default;
 };
 
-// The sector of an eye; on a face plane counts as between the faces.
+// The sector of an eye. An eye on a face's plane counts as between the faces.
 [[nodiscard]] inline BoxSector sector_of_eye(const DVec3& eye, const Aabb& box) {
   const auto side = [&](int k) {
     return static_cast<int>(eye[k] > box.max[k]) - static_cast<int>(eye[k] < box.min[k]);
@@ -41,7 +41,7 @@ struct BoxSector {
   return {side(0), side(1), side(2)};
 }
 
-// Corners in order: 4 where one face is seen, 6 where two or three are, none from inside.
+// Corners in order: 4 if one face is seen, 6 if two or three are, none from inside.
 struct BoxOutline {
   std::array<std::uint8_t, 6> corners{};
   int size = 0;
@@ -53,8 +53,8 @@ struct BoxOutline {
 
 namespace detail {
 
-// The outline consists of the edges between a face that is seen and one that is not. Every seen
-// face is walked such that its two neighbors walk their common edge in opposite ways.
+// The outline consists of the edges between a seen and an unseen face. Seen faces are all walked in
+// the same sense, so that two neighbors walk their common edge in opposite directions.
 constexpr BoxOutline make_outline(BoxSector sector) {
   // The four corners around the face on side 0 or 1 of axis k, counter-clockwise in the two
   // coordinates of a right-handed frame (right, up, forward) in which forward leads to the face.

@@ -1,4 +1,4 @@
-// How rays are matched with the areas in which they start.
+// The top level finds the influence areas that hold a ray's origin.
 #pragma once
 
 #include <cstdint>
@@ -6,19 +6,19 @@
 
 namespace pah {
 
-// How the areas that hold the origin of a ray without a bundle are found (thesis, 3.3 and 5.5).
+// The structure that finds the areas of a ray without a bundle (thesis, 3.3 and 5.5).
 enum class TopLevelKind : std::uint8_t {
-  none,   // not at all: such rays are asked of the global BVH
-  list,   // by the boxes around all areas
-  octree  // by cells that list the areas which overlap them
+  none,   // such rays are traced through the global BVH
+  list,   // a list of the boxes around all areas
+  octree  // cells that list the areas which overlap them
 };
 
 struct TopLevelConfig {
   TopLevelKind kind = TopLevelKind::none;
-  // How often the octree's cells are halved, 1 to 10; 0: as a megabyte of nodes allows, 7 at most.
+  // How often the octree's cells are halved, 1 to 10; 0: up to 7 times within a megabyte of nodes.
   int octree_depth = 0;
-  // Only rays that run along an area's rays, either way, up to so many radians are asked of it.
-  // Like all of this it changes speed only.
+  // An area is asked only for rays that run along its bundle's rays up to this angle in radians.
+  // The top level changes speed, never an answer.
   double direction_tolerance = std::numbers::pi / 36;
 };
 

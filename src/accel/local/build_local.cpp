@@ -13,18 +13,18 @@ namespace pah {
 
 namespace {
 
-// The largest coordinate in a box.
+// The largest absolute coordinate of a box.
 float magnitude_of(const Aabb& box) {
   return largest_of(glm::max(glm::abs(box.min), glm::abs(box.max)));
 }
 
-// With u the unit roundoff and M the magnitude of the region and of what a triangle's box adds to
-// it, differences of coordinates are at most 2 M. A segment's end misses the eye it was aimed at by
-// the rounding of the eye to float (u M), of the direction (4 u M), of the offset origin (u M) and
-// of t_max (2 u M).
+// Let u be the unit roundoff and M the largest absolute coordinate of the region and of a
+// triangle's box. Differences of coordinates are at most 2 M. The end of a segment misses the eye
+// at which it is aimed by the rounding of the eye to float (u M), of the direction (4 u M), of the
+// offset origin (u M) and of t_max (2 u M).
 constexpr int end_roundings = 8;
-// Adds how far from its triangle a hit may be (30 u of up to 2 M, ray_triangle.hpp), the rounding
-// of t where a ray leaves the region (6 u M) and that of the widened box (2 u M).
+// Adds the distance of a hit from its triangle (30 u of up to 2 M, ray_triangle.hpp), the rounding
+// of t where a ray leaves the region (6 u M), and the rounding of the widened box (2 u M).
 constexpr int margin_roundings = end_roundings + 68;
 
 std::vector<std::uint32_t> triangles_near(const Triangles& triangles, const Region& region,

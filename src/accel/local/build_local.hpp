@@ -1,4 +1,4 @@
-// The local BVH of one influence area.
+// Builds the local BVH of one influence area.
 #pragma once
 
 #include <pah/accel/local_bvhs.hpp>
@@ -7,10 +7,10 @@
 
 namespace pah {
 
-// Where an area's rays live, and what they can hit there.
+// An area's region, and the triangles that its rays can hit inside it.
 struct LocalTriangles {
   Region region;
-  float end_margin = 0;  // by which a segment can miss the eye that it was aimed at
+  float end_margin = 0;  // the largest distance by which a segment misses the eye it is aimed at
   std::vector<std::uint32_t> subset;
 };
 
@@ -20,7 +20,7 @@ struct LocalTriangles {
                                    std::span<const std::uint32_t> subset, const InfluenceArea& area,
                                    const LocalConfig& config);
 
-// Both, and how long it took.
+// A local BVH, its triangles and the time taken to build it.
 struct BuiltLocalBvh {
   LocalTriangles triangles;
   BuiltBvh built;
@@ -29,7 +29,8 @@ struct BuiltLocalBvh {
 [[nodiscard]] BuiltLocalBvh build_local_bvh(const Triangles& triangles, const InfluenceArea& area,
                                             const LocalConfig& config);
 
-// Expected cost in any BVH of a ray of the area's bundle, all the way through its region.
+// The expected cost, in any BVH, of a ray of the area's bundle that passes through the whole
+// region.
 [[nodiscard]] double bundle_cost(const Bvh& bvh, const InfluenceArea& area);
 
 }  // namespace pah

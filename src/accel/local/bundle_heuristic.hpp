@@ -1,4 +1,4 @@
-// Heuristics of the builder for the rays of one influence area.
+// The builder's heuristic for the rays of one influence area.
 #pragma once
 
 #include <pah/accel/local_bvhs.hpp>
@@ -7,7 +7,6 @@
 
 namespace pah {
 
-// What `config` says, for the area's bundle.
 [[nodiscard]] BuildHeuristic bundle_heuristic(const InfluenceArea& area, const LocalConfig& config);
 
 }  // namespace pah

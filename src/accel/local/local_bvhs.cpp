@@ -1,11 +1,11 @@
-// Who answers which ray.
+// Assigns each ray to a local BVH or to the global BVH.
 //
 // A local BVH holds every triangle whose box, widened by a margin, meets the area's region. The
-// ray's point at the reported t of a hit lies within roundings of the triangle (ray_triangle.hpp).
-// Hence every hit at a t up to which the ray stays within the region, or within a fraction of the
-// margin of it, is a hit of the local BVH: up to there its answer, the nearest or none, is the
-// answer. This holds for triangles that are cut by the region, areas that overlap and eyes inside
-// of boxes alike; beyond it the ray is asked of the global BVH again as a whole.
+// ray's point at the t of a hit lies within rounding errors of the triangle (ray_triangle.hpp). So
+// as long as the ray stays in the region, or within a fraction of the margin of it, every hit is a
+// hit of the local BVH: up to that t its answer, the nearest hit or none, is final. This holds for
+// triangles that the region cuts, for areas that overlap and for eyes inside of boxes. A ray
+// without a hit up to that t is traced through the global BVH from its start.
 #include <algorithm>
 #include <atomic>
 #include <bit>
@@ -23,17 +23,14 @@ namespace pah {
 
 namespace {
 
-// What may answer an area's rays.
-using LocalStructure = std::variant<Bvh>;
-
-struct Area {
+struct BuiltArea {
   LocalArea declared;
   Region region;
   float end_margin = 0;
   bool holds_scene = false;  // every triangle is in the local BVH
-  LocalStructure structure;
+  Bvh bvh;
 
-  // Up to which t the local BVH's answer is certain; nothing if the ray does not start inside.
+  // The t up to which the local BVH's answer is final; nothing if the ray starts outside.
   [[nodiscard]] std::optional<float> reach(const Ray& ray, const Aabb& scene) const {
     if (!contains(region, ray.origin)) return {};
     return reach_from_inside(ray, scene);
@@ -46,8 +43,8 @@ struct Area {
   }
 
  private:
-  // A segment between two points of a convex set lies in it. It may end short of the eye
-  // (spawn.hpp) by more than the margin: what counts is where it leads.
+  // A segment between two points of a convex region lies in the region. t_max may end it short of
+  // the eye by more than the margin: what counts is the point at t = 1.
   [[nodiscard]] bool ends_at_eye(const Ray& ray) const {
     const auto* point = std::get_if<PointArea>(&declared.area);
     if (point == nullptr || point->frustum.near > 0 || !(ray.t_max <= 1)) return false;
@@ -57,7 +54,7 @@ struct Area {
   }
 };
 
-// Threads add what a batch was; nobody reads while they do.
+// Threads add their batch's counters. The totals are read only after all threads have finished.
 struct Counters {
   struct Work {
     std::atomic<std::uint64_t> rays = 0, inner_nodes = 0, blocks = 0;
@@ -75,8 +72,8 @@ struct Counters {
   std::atomic<std::uint64_t> answered = 0;
 };
 
-// Whether a ray is among the few that are traced through the global BVH only to know what that
-// costs. By its own bits, so that the sample depends neither on batches nor on threads.
+// Whether a ray is in the sample that is also traced through the global BVH to measure its cost
+// there. The ray's own bits decide, so that the sample depends neither on batches nor on threads.
 bool is_sampled(const Ray& ray) {
   constexpr std::uint64_t one_in = 64;
   std::uint64_t hash = 0;
@@ -119,9 +116,9 @@ class LocalBvhsOverGlobal final : public LocalBvhs {
                    TraversalCounts* counts) const override {
     for_batches(rays, [&](std::span<const Ray> batch, std::size_t first) {
       const std::span<Hit> found = hits.subspan(first, batch.size());
-      const auto trace = [&](const auto& structure, const Lanes& lanes, TraversalCounts* spent) {
+      const auto trace = [&](const Bvh& bvh, const Lanes& lanes, TraversalCounts* spent) {
         std::array<Hit, batch_size> local;
-        closest_hits(structure, lanes.span(), std::span(local.data(), lanes.count), spent);
+        closest_hits(bvh, lanes.span(), std::span(local.data(), lanes.count), spent);
         for (std::size_t k = 0; k < lanes.count; ++k) found[lanes.index[k]] = local[k];
         return [found](std::size_t i) { return found[i].valid(); };
       };
@@ -133,9 +130,9 @@ class LocalBvhsOverGlobal final : public LocalBvhs {
                 TraversalCounts* counts) const override {
     for_batches(rays, [&](std::span<const Ray> batch, std::size_t first) {
       const std::span<std::uint8_t> found = results.subspan(first, batch.size());
-      const auto trace = [&](const auto& structure, const Lanes& lanes, TraversalCounts* spent) {
+      const auto trace = [&](const Bvh& bvh, const Lanes& lanes, TraversalCounts* spent) {
         std::array<std::uint8_t, batch_size> local;
-        pah::occluded(structure, lanes.span(), std::span(local.data(), lanes.count), spent);
+        pah::occluded(bvh, lanes.span(), std::span(local.data(), lanes.count), spent);
         for (std::size_t k = 0; k < lanes.count; ++k) found[lanes.index[k]] = local[k];
         return [found](std::size_t i) { return found[i] != 0; };
       };
@@ -146,7 +143,8 @@ class LocalBvhsOverGlobal final : public LocalBvhs {
   [[nodiscard]] AcceleratorMemory memory() const override {
     AcceleratorMemory memory{.global_bvh = global_.memory_bytes()};
     for (const LocalBvhReport& report : reports_) memory.local_bvhs += report.bytes;
-    memory.top_level = areas_.capacity() * sizeof(Area) + order_.capacity() * sizeof(order_[0]);
+    memory.top_level =
+        areas_.capacity() * sizeof(BuiltArea) + order_.capacity() * sizeof(order_[0]);
     if (const auto* list = std::get_if<AreaList>(&top_level_))
       memory.top_level += list->memory_bytes();
     if (const auto* octree = std::get_if<AreaOctree>(&top_level_))
@@ -178,7 +176,7 @@ class LocalBvhsOverGlobal final : public LocalBvhs {
  private:
   static constexpr std::uint32_t the_global_bvh = 0xFFFFFFFFU;
 
-  // Some rays of a batch, side by side.
+  // A subset of a batch's rays, contiguous.
   struct Lanes {
     std::array<Ray, batch_size> rays;
     std::array<std::size_t, batch_size> index;  // in the batch
@@ -201,7 +199,7 @@ class LocalBvhsOverGlobal final : public LocalBvhs {
   }
 
   void add(const LocalArea& declared, const Triangles& triangles, const LocalConfig& config) {
-    Area area;
+    BuiltArea area;
     area.declared = declared;
     BuiltLocalBvh local = build_local_bvh(triangles, declared.area, config);
     area.region = local.triangles.region;
@@ -215,16 +213,16 @@ class LocalBvhsOverGlobal final : public LocalBvhs {
     report.predicted_cost = bundle_cost(local.built.bvh, declared.area);
     report.global_cost = bundle_cost(global_, declared.area);
     reports_.push_back(report);
-    area.structure = std::move(local.built.bvh);
+    area.bvh = std::move(local.built.bvh);
     areas_.push_back(std::move(area));
   }
 
-  // In the order of the areas' costs.
+  // Lists the areas in the order of their costs.
   [[nodiscard]] TopLevel make_top_level(const TopLevelConfig& config) const {
     if (config.kind == TopLevelKind::none || areas_.empty()) return {};
     std::vector<Region> regions;
     regions.reserve(areas_.size());
-    for (const Area& area : areas_) regions.push_back(area.region);
+    for (const BuiltArea& area : areas_) regions.push_back(area.region);
     if (config.kind == TopLevelKind::list) return AreaList(regions, order_);
     return AreaOctree(regions, order_, config.octree_depth);
   }
@@ -240,11 +238,11 @@ class LocalBvhsOverGlobal final : public LocalBvhs {
   [[nodiscard]] static Assignment assign_by(const std::monostate& /*none*/, const Ray& /*ray*/) {
     return {};
   }
-  // Cells are no exact borders of areas: an origin has to be in the area itself.
+  // A cell may extend beyond its areas: the origin is tested against the area itself.
   [[nodiscard]] Assignment assign_by(const auto& top_level, const Ray& ray) const {
     Assignment assigned;
     top_level.visit(ray.origin, [&](const AreaCandidate& candidate) {
-      const Area& area = areas_[candidate.area];
+      const BuiltArea& area = areas_[candidate.area];
       if (!candidate.certain && !contains(area.region, ray.origin)) return false;
       if (!is_affine(area.declared.area, ray, direction_tolerance_)) return false;
       assigned = {candidate.area, area.reach_from_inside(ray, bounds_)};
@@ -263,8 +261,9 @@ class LocalBvhsOverGlobal final : public LocalBvhs {
     return {};
   }
 
-  // Calls `trace(structure, lanes, counts)` for the rays of each area, then for those that are
-  // still open. It returns a function that tells whether ray i of the batch has hit something.
+  // Calls `trace(bvh, lanes, counts)` for the rays of each area, then with the global BVH for those
+  // without a final answer. `trace` returns a function that tells whether ray i of the batch has
+  // hit something.
   template <typename Trace>
   void answer(std::span<const Ray> batch, TraversalCounts* counts, const Trace& trace) const {
     std::array<Assignment, batch_size> assigned;
@@ -289,11 +288,7 @@ class LocalBvhsOverGlobal final : public LocalBvhs {
       }
       if (counts != nullptr) sample(lanes, batch, area, trace);
       TraversalCounts spent;
-      const auto hit = std::visit(
-          [&](const auto& structure) {
-            return trace(structure, lanes, counts == nullptr ? nullptr : &spent);
-          },
-          areas_[area].structure);
+      const auto hit = trace(areas_[area].bvh, lanes, counts == nullptr ? nullptr : &spent);
       const std::size_t open_before = open.count;
       for (std::size_t k = 0; k < lanes.count; ++k) {
         const std::size_t ray = lanes.index[k];
@@ -309,7 +304,8 @@ class LocalBvhsOverGlobal final : public LocalBvhs {
     if (open.count > 0) trace(global_, open, counts);
   }
 
-  // What it writes as answers is written again by those who are asked for them.
+  // Traces a sample of the rays through the global BVH. The answers that this writes are
+  // overwritten by the area's trace.
   template <typename Trace>
   void sample(const Lanes& lanes, std::span<const Ray> batch, std::uint32_t area,
               const Trace& trace) const {
@@ -325,7 +321,7 @@ class LocalBvhsOverGlobal final : public LocalBvhs {
 
   Aabb bounds_;  // of all triangles, padded
   Bvh global_;
-  std::vector<Area> areas_;
+  std::vector<BuiltArea> areas_;
   std::vector<std::uint32_t> order_;  // areas by bundle, then by cost
   TopLevel top_level_;
   double direction_tolerance_ = 0;

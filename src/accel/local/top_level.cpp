@@ -18,8 +18,8 @@ struct Cell {
 
 Vec3 middle(const Aabb& box) { return box.min + 0.5F * (box.max - box.min); }
 
-// The half along each axis that a point is in. A point on the border is in the upper one, and both
-// have the border.
+// Bit k is set if the point is in the upper half along axis k. A point on the border counts as in
+// the upper half; both halves' boxes include the border.
 unsigned half_of(const Vec3& point, const Vec3& border) {
   unsigned half = 0;
   for (int k = 0; k < 3; ++k)
@@ -45,9 +45,9 @@ AreaList::AreaList(std::span<const Region> regions, std::span<const std::uint32_
 
 AreaOctree::AreaOctree(std::span<const Region> regions, std::span<const std::uint32_t> order,
                        int depth) {
-  constexpr int usual_depth = 7;
+  constexpr int default_depth = 7;
   const bool set = depth > 0;
-  const int last = set ? std::min(depth, deepest) : usual_depth;
+  const int last = set ? std::min(depth, deepest) : default_depth;
   std::vector<RegionShape> shapes;
   shapes.reserve(regions.size());
   for (const Region& region : regions) shapes.push_back(shape_of(region));
@@ -88,7 +88,7 @@ AreaOctree::AreaOctree(std::span<const Region> regions, std::span<const std::uin
       else
         settle(cell);
     }
-    const bool full = !set && nodes_.size() + 8 * undecided.size() > usual_nodes;
+    const bool full = !set && nodes_.size() + 8 * undecided.size() > default_max_nodes;
     if (depth_ == last || full || undecided.empty()) {
       for (const Cell& cell : undecided) settle(cell);
       break;
@@ -119,7 +119,7 @@ std::span<const AreaCandidate> AreaOctree::leaf_of(const Vec3& point) const {
 
 std::vector<std::vector<Aabb>> AreaOctree::cells(std::size_t levels) const {
   std::vector<std::vector<Aabb>> boxes;
-  std::vector<std::uint32_t> nodes{0};  // of a level, in the order of its boxes
+  std::vector<std::uint32_t> nodes{0};  // the nodes of a level, in the order of its boxes
   if (levels > 0 && !box_.empty()) boxes.push_back({box_});
   while (!boxes.empty() && boxes.size() < levels) {
     std::vector<std::uint32_t> nodes_below;

@@ -1,4 +1,4 @@
-// Which areas hold a point: asked of rays that carry no bundle.
+// Finds the areas that hold a point, for rays without a bundle.
 #pragma once
 
 #include <cstdint>
@@ -12,17 +12,17 @@ namespace pah {
 // An area that may hold the points of a cell.
 struct AreaCandidate {
   std::uint32_t area = 0;
-  bool certain = false;  // it holds all of them
+  bool certain = false;  // the area holds the whole cell
 };
 
-// The boxes around the areas, one after the other.
+// A list of the boxes around the areas.
 class AreaList {
  public:
-  // `regions` are named by their positions; `order` is that in which they are visited.
+  // An area is named by its position in `regions`. `order` is the order in which areas are visited.
   AreaList(std::span<const Region> regions, std::span<const std::uint32_t> order);
 
-  // Calls visit(candidate) until it returns true, for every area that holds the point, among
-  // others.
+  // Calls visit(candidate) for every area that holds the point, and for some that do not, until
+  // visit returns true.
   template <typename Visit>
   void visit(const Vec3& point, const Visit& visit) const {
     for (const Boxed& boxed : boxes_)
@@ -38,16 +38,16 @@ class AreaList {
   std::vector<Boxed> boxes_;
 };
 
-// Cells around the areas, halved along all axes where an area's border runs through them. A leaf
+// An octree around the areas. A cell is divided where an area's border runs through it; a leaf
 // lists the areas that overlap it.
 class AreaOctree {
  public:
   static constexpr int deepest = 10;
-  // Of an octree whose depth is not set: beyond so many nodes, a megabyte, no level is added.
-  static constexpr std::size_t usual_nodes = std::size_t{1} << 17U;
+  // An octree whose depth is not set gets no further level beyond this many nodes, a megabyte.
+  static constexpr std::size_t default_max_nodes = std::size_t{1} << 17U;
 
-  // `depth` is the number of times that the root may be halved, at most `deepest`; 0: as deep as
-  // 7 levels and usual_nodes allow.
+  // `depth` limits how often cells are halved, at most `deepest`; 0: as deep as 7 levels and
+  // default_max_nodes allow.
   AreaOctree(std::span<const Region> regions, std::span<const std::uint32_t> order, int depth = 0);
 
   // As AreaList::visit().
@@ -58,7 +58,8 @@ class AreaOctree {
   }
   [[nodiscard]] std::span<const AreaCandidate> leaf_of(const Vec3& point) const;
 
-  // The boxes of the first `levels` levels' cells, halved ones too; none if there are no areas.
+  // The boxes of the cells of the first `levels` levels, divided cells included; none without
+  // areas.
   [[nodiscard]] std::vector<std::vector<Aabb>> cells(std::size_t levels) const;
 
   [[nodiscard]] std::size_t nodes() const { return nodes_.size(); }
@@ -70,8 +71,8 @@ class AreaOctree {
  private:
   static constexpr std::uint32_t inner = 0xFFFFFFFFU;
   struct Node {
-    std::uint32_t first = 0;  // of its eight children, or of its candidates
-    std::uint32_t count = 0;  // of these, or `inner`
+    std::uint32_t first = 0;  // the first of its eight children, or of its candidates
+    std::uint32_t count = 0;  // the number of candidates, or `inner`
   };
 
   Aabb box_;
