@@ -63,24 +63,12 @@ double cost_within_root(const BuiltBvh& built, const BoxMeasure& measure) {
   return expected_cost(built.bvh, measure, measure_of(measure, built.tree.nodes.front().box));
 }
 
-const char* heuristic_name(Heuristic heuristic) {
-  switch (heuristic) {
-    case Heuristic::surface_area:
-      return "surface area";
-    case Heuristic::projected_area:
-      return "projected area";
-    case Heuristic::mean_direction:
-      return "mean direction";
-  }
-  return "";
-}
-
 BvhReport report_local(const World& world, const SceneArea& area, const LocalConfig& config,
                        const Bvh& global, const AreaRayCosts& rays) {
   const BuiltLocalBvh local = build_local_bvh(world.triangles(), area.area, config);
   const BoxMeasure probability = each_box(HitProbability(area.area));
   return {.name = area.name,
-          .heuristic = heuristic_name(config.heuristic),
+          .heuristic = label_of(config.heuristic),
           .tree = summarize(local.built.tree, probability),
           .wide_nodes = local.built.bvh.nodes.size(),
           .expected_cost = cost_within_root(local.built, probability),
@@ -94,11 +82,11 @@ BvhReport report_local(const World& world, const SceneArea& area, const LocalCon
           .build_seconds = local.seconds};
 }
 
-// Those that a render builds or, if asked for, all.
-std::vector<SceneArea> areas_to_tell_of(const Acceleration& acceleration, bool all) {
+// The areas that a render builds, or all.
+std::vector<SceneArea> reported_areas(const Acceleration& acceleration, bool all) {
   std::vector<SceneArea> areas;
-  for (std::size_t i = 0; i < acceleration.areas.size(); ++i)
-    if (acceleration.plans[i].build || all) areas.push_back(acceleration.areas[i]);
+  for (const AreaStatus& status : acceleration.areas)
+    if (status.plan.build || all) areas.push_back(status.area);
   return areas;
 }
 
@@ -107,7 +95,7 @@ std::vector<BvhReport> report_areas(const World& world, const std::vector<SceneA
   std::vector<LocalArea> built;
   built.reserve(areas.size());
   for (const SceneArea& area : areas) built.push_back(local_area(area));
-  const LocalConfig config = local_config(scene.acceleration);
+  const LocalConfig& config = scene.acceleration.local;
   const std::vector<AreaRayCosts> costs =
       measure_area_costs(world, global, built, config, scene.film);
   std::vector<BvhReport> reports;
@@ -161,7 +149,7 @@ ExitCode run_inspect(const InspectArguments& arguments) {
   report.height = scene.film.height;
   report.triangles = world.triangles().size();
   report.bvhs.push_back({.name = "global",
-                         .heuristic = "surface area",
+                         .heuristic = label_of(Heuristic::surface_area),
                          .tree = summarize(global.built.tree, surface_area),
                          .wide_nodes = global.built.bvh.nodes.size(),
                          .expected_cost = cost_within_root(global.built, surface_area),
@@ -176,7 +164,7 @@ ExitCode run_inspect(const InspectArguments& arguments) {
   // As a render decides.
   const Acceleration acceleration = make_acceleration(world, scene);
   warnings.add(warnings_of(acceleration, world, scene));
-  const std::vector<SceneArea> areas = areas_to_tell_of(acceleration, arguments.all_areas);
+  const std::vector<SceneArea> areas = reported_areas(acceleration, arguments.all_areas);
   for (BvhReport& area : report_areas(world, areas, scene, global.built.bvh))
     report.bvhs.push_back(std::move(area));
   report.accelerator = acceleration.name;

@@ -61,12 +61,9 @@ void warn_of_memory(const Acceleration& acceleration, const AccelerationSettings
 
 void warn_of_areas(const Acceleration& acceleration, const World& world, const FilmSettings& film,
                    std::vector<std::string>& warnings) {
-  std::size_t built = 0;
-  for (std::size_t i = 0; i < acceleration.areas.size(); ++i) {
-    if (!acceleration.plans[i].build) continue;
-    const LocalBvhReport& report = acceleration.local->reports()[built++];
-    const SceneArea& area = acceleration.areas[i];
-    if (!area.declared) continue;
+  for (const auto& [area, plan, built] : acceleration.areas) {
+    if (!built || !area.declared) continue;
+    const LocalBvhReport& report = acceleration.local->reports()[*built];
     const std::string title = fmt::format("influence area '{}'", area.name);
     if (no_ray_enters(area, world, film))
       warnings.push_back(title + " lies where its light sends no rays");

@@ -8,20 +8,16 @@ std::vector<AreaReport> report_areas(const Acceleration& acceleration) {
   std::vector<AreaReport> reports;
   const std::vector<LocalBvhUse> uses =
       acceleration.local != nullptr ? acceleration.local->uses() : std::vector<LocalBvhUse>{};
-  std::size_t built = 0;
-  for (std::size_t i = 0; i < acceleration.areas.size(); ++i) {
-    const SceneArea& area = acceleration.areas[i];
-    const AreaPlan& plan = acceleration.plans[i];
+  for (const auto& [area, plan, built] : acceleration.areas) {
     AreaReport report;
     report.name = area.name;
     report.type = type_name(area.area);
     report.light = area.light;
     report.built = plan.build;
     report.reason = plan.reason;
-    if (plan.build) {
-      const LocalBvhReport& bvh_report = acceleration.local->reports()[built];
-      const LocalBvhUse& use = uses[built];
-      ++built;
+    if (built) {
+      const LocalBvhReport& bvh_report = acceleration.local->reports()[*built];
+      const LocalBvhUse& use = uses[*built];
       report.triangles = bvh_report.triangles;
       report.predicted_cost = bvh_report.predicted_cost;
       report.global_cost = bvh_report.global_cost;

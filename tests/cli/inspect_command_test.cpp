@@ -69,7 +69,7 @@ TEST_CASE("inspect tells of the local BVHs that a render has") {
   const auto report = nlohmann::json::parse(read_file("r.json"));
   REQUIRE(report["bvhs"].size() == 2);
   const auto& bvh = report["bvhs"][1];
-  CHECK(bvh["heuristic"] == "projected area");
+  CHECK(bvh["heuristic"] == "PAH");
   CHECK(bvh["triangles"] == 14);
   CHECK(bvh["bundle_cost"]["local"].get<double>() > 0);
   CHECK(bvh["bundle_cost"]["local"].get<double>() <= bvh["bundle_cost"]["global"].get<double>());

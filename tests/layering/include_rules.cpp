@@ -14,8 +14,8 @@ namespace fs = std::filesystem;
 // A module includes only modules of lower ranks.
 const std::map<std::string, int, std::less<>> ranks{
     {"base", 0},   {"geometry", 1},    {"influence", 2}, {"image", 2},
-    {"bvh", 2},    {"light_space", 3}, {"accel", 4},     {"scene", 4},
-    {"render", 5}, {"load", 5},        {"report", 6},    {"cli", 7}};
+    {"bvh", 2},    {"light_space", 3}, {"accel", 4},     {"scene", 5},
+    {"render", 6}, {"load", 6},        {"report", 7},    {"cli", 8}};
 
 // A folder of a module: either a folder below the module's own, or the own one.
 struct Floor {

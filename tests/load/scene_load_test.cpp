@@ -91,8 +91,8 @@ TEST_CASE("a scene with nothing in it has every default") {
   CHECK(scene.render.seed == 0);
   CHECK(scene.render.strategy == Strategy::mis);
   CHECK(scene.influence_areas.derive);
-  CHECK(scene.acceleration.bins == 16);
-  CHECK(scene.acceleration.heuristic == std::nullopt);
+  CHECK(scene.acceleration.local.build.bins == 16);
+  CHECK(scene.acceleration.local.heuristic == Heuristic::surface_area);
   CHECK(scene.acceleration.memory == std::nullopt);
   CHECK(scene.instances.empty());
   CHECK(scene.lights.empty());

@@ -18,7 +18,7 @@ std::vector<AreaRayCosts> costs_of(const Scene& scene) {
   for (const SceneArea& area : areas_of(world, scene.influence_areas, scene.film))
     areas.push_back(local_area(area));
   return measure_area_costs(world, build_bvh(world.triangles()).bvh, areas,
-                            local_config(scene.acceleration), scene.film);
+                            scene.acceleration.local, scene.film);
 }
 
 }  // namespace

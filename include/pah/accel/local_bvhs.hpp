@@ -4,22 +4,11 @@
 
 #include <optional>
 #include <pah/accel/accelerator.hpp>
-#include <pah/bvh/build_config.hpp>
+#include <pah/accel/local_config.hpp>
 #include <pah/influence/influence_area.hpp>
-#include <pah/influence/top_level.hpp>
 #include <vector>
 
 namespace pah {
-
-struct LocalConfig {
-  Heuristic heuristic = Heuristic::surface_area;
-  SplitAxis split = SplitAxis::best;
-  FacingRules facing;
-  // From this depth on, nodes are split by SAH along their longest axis.
-  std::uint32_t non_fallback_levels = 0xFFFFFFFFU;
-  BuildConfig build;
-  TopLevelConfig top_level;
-};
 
 // An area in world coordinates, and the bundle whose rays it serves.
 struct LocalArea {

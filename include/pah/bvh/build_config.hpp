@@ -8,6 +8,7 @@
 #pragma once
 
 #include <cstdint>
+#include <pah/base/enum_names.hpp>
 #include <pah/bvh/traversal_counts.hpp>
 #include <pah/geometry/aabb.hpp>
 
@@ -39,6 +40,13 @@ enum class Heuristic : std::uint8_t {
   mean_direction  // the mean of the box's projected areas over the directions of the bundle's rays,
                   // not clipped to the area; as fast to compute as SAH
 };
+inline constexpr EnumName<Heuristic> heuristic_names[]{
+    {Heuristic::surface_area, "sah", "SAH"},
+    {Heuristic::projected_area, "pah", "PAH"},
+    {Heuristic::mean_direction, "mean_direction", "mean direction"}};
+[[nodiscard]] constexpr const char* label_of(Heuristic heuristic) {
+  return label_of<Heuristic>(heuristic_names, heuristic);
+}
 
 // Which axes of a node may be split.
 enum class SplitAxis : std::uint8_t {
@@ -46,6 +54,12 @@ enum class SplitAxis : std::uint8_t {
   longest,  // the cheapest split of the node's longest axis
   facing    // SPFH: the cheapest split of the axes whose planes face the bundle's rays well enough
 };
+inline constexpr EnumName<SplitAxis> split_axis_names[]{{SplitAxis::best, "auto", "best"},
+                                                        {SplitAxis::longest, "longest", "longest"},
+                                                        {SplitAxis::facing, "facing", "SPFH"}};
+[[nodiscard]] constexpr const char* label_of(SplitAxis split) {
+  return label_of<SplitAxis>(split_axis_names, split);
+}
 
 // The rules of SplitAxis::facing (thesis, algorithm 5.1). The ratio of a split is the sum of its
 // halves' hit probabilities over the node's: 1 if no ray meets both halves, 2 if all rays do.

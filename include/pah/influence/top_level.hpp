@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <numbers>
+#include <pah/base/enum_names.hpp>
 
 namespace pah {
 
@@ -12,6 +13,10 @@ enum class TopLevelKind : std::uint8_t {
   list,   // a list of the boxes around all areas
   octree  // cells that list the areas which overlap them
 };
+inline constexpr EnumName<TopLevelKind> top_level_names[]{
+    {TopLevelKind::none, "none", "none"},
+    {TopLevelKind::list, "list", "list"},
+    {TopLevelKind::octree, "octree", "octree"}};
 
 struct TopLevelConfig {
   TopLevelKind kind = TopLevelKind::none;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <pah/accel/light_grids.hpp>
 #include <pah/accel/plan.hpp>
 #include <pah/scene/areas.hpp>
@@ -20,11 +21,18 @@ struct AcceleratorName {
 // "bvh", "local", "light", "brute_force" and, if it was found, "embree", with descriptions.
 [[nodiscard]] std::span<const AcceleratorName> accelerator_names();
 
+// An influence area and what became of it.
+struct AreaStatus {
+  SceneArea area;
+  AreaPlan plan;
+  // If it was built: its index in LocalBvhs::reports() and uses().
+  std::optional<std::size_t> built = std::nullopt;
+};
+
 struct Acceleration {
   std::string_view name;  // one of accelerator_names()
   std::unique_ptr<Accelerator> accelerator;
-  std::vector<SceneArea> areas;       // declared, then derived
-  std::vector<AreaPlan> plans;        // for each area
+  std::vector<AreaStatus> areas;      // declared, then derived
   std::vector<GridPlan> grid_plans;   // for each light that is a point or has one direction
   const LocalBvhs* local = nullptr;   // the accelerator, if it has areas: those built, in order
   const LightGrids* grids = nullptr;  // the accelerator, if it has grids: those built, in order
@@ -42,8 +50,5 @@ struct Acceleration {
 
 // Converts a scene's area to the form that accelerators use.
 [[nodiscard]] LocalArea local_area(const SceneArea& area);
-
-// How acceleration settings have local BVHs built.
-[[nodiscard]] LocalConfig local_config(const AccelerationSettings& settings);
 
 }  // namespace pah

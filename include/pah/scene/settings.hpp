@@ -4,9 +4,8 @@
 #include <algorithm>
 #include <cstdint>
 #include <optional>
-#include <pah/bvh/build_config.hpp>
+#include <pah/accel/local_config.hpp>
 #include <pah/geometry/vec.hpp>
-#include <pah/influence/top_level.hpp>
 #include <string>
 #include <variant>
 #include <vector>
@@ -79,18 +78,8 @@ struct InfluenceSettings {
 };
 
 struct AccelerationSettings {
-  std::optional<Heuristic> heuristic;  // of local BVHs; without one SAH so far
-  SplitAxis split_axis = SplitAxis::best;
-  // Of local BVHs: see BuildConfig, whose ranges and defaults these are.
-  int bins = static_cast<int>(BuildConfig{}.bins);
-  int max_leaf_triangles = static_cast<int>(BuildConfig{}.max_leaf);
-  double least_share = BuildConfig{}.least_share;
-  LeafRules leaves;
-  FacingRules facing;
-  std::optional<std::uint32_t> non_fallback_levels;  // see LocalConfig
-  TopLevelConfig top_level;
-  // Bytes of all structures that rays are answered by, the global BVH, which is always there,
-  // included.
+  LocalConfig local;
+  // Bytes of all structures that answer rays. The global BVH counts, but is built in any case.
   std::optional<std::uint64_t> memory;
 };
 

@@ -7,7 +7,9 @@
 #include <array>
 #include <functional>
 #include <map>
+#include <pah/base/enum_names.hpp>
 #include <pah/geometry/vec.hpp>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -81,6 +83,12 @@ std::size_t read_option(ReadContext& context, const YamlNode& node, const ValueN
 // Names of an enumeration's values, in order.
 template <class Enum>
 using EnumNames = std::vector<std::pair<std::string, Enum>>;
+template <typename Enum>
+[[nodiscard]] EnumNames<Enum> names_of(std::span<const EnumName<Enum>> names) {
+  EnumNames<Enum> keys;
+  for (const EnumName<Enum>& name : names) keys.emplace_back(name.key, name.value);
+  return keys;
+}
 
 class MapReader {
  public:

@@ -30,49 +30,39 @@ std::span<const AcceleratorName> accelerator_names() {
 
 LocalArea local_area(const SceneArea& area) { return {area.area, area.bundle, area.declared}; }
 
-LocalConfig local_config(const AccelerationSettings& settings) {
-  LocalConfig config;
-  config.heuristic = settings.heuristic.value_or(config.heuristic);
-  config.split = settings.split_axis;
-  config.build.bins = static_cast<std::uint32_t>(settings.bins);
-  config.build.max_leaf = static_cast<std::uint32_t>(settings.max_leaf_triangles);
-  config.build.least_share = settings.least_share;
-  config.build.leaves = settings.leaves;
-  config.facing = settings.facing;
-  config.non_fallback_levels = settings.non_fallback_levels.value_or(config.non_fallback_levels);
-  config.top_level = settings.top_level;
-  return config;
-}
-
 namespace {
 
+void build_areas(Acceleration& made, const World& world, const LocalConfig& config) {
+  std::vector<LocalArea> areas;
+  for (AreaStatus& status : made.areas) {
+    status.built = std::nullopt;
+    if (!status.plan.build) continue;
+    status.built = areas.size();
+    areas.push_back(local_area(status.area));
+  }
+  auto accelerator = make_local_bvhs(world.triangles(), areas, config);
+  made.local = accelerator.get();
+  made.accelerator = std::move(accelerator);
+}
+
 void use_areas(Acceleration& made, const World& world, const AccelerationSettings& settings) {
-  const auto build = [&] {
-    std::vector<LocalArea> areas;
-    for (std::size_t i = 0; i < made.areas.size(); ++i)
-      if (made.plans[i].build) areas.push_back(local_area(made.areas[i]));
-    auto accelerator = make_local_bvhs(world.triangles(), areas, local_config(settings));
-    made.local = accelerator.get();
-    made.accelerator = std::move(accelerator);
-  };
-  build();
-  if (!settings.memory || made.accelerator->memory().total() <= *settings.memory) return;
-  // As many as there is room for, in their order.
+  build_areas(made, world, settings.local);
   const AcceleratorMemory memory = made.accelerator->memory();
+  if (!settings.memory || memory.total() <= *settings.memory) return;
+  // Builds again, in order, the areas for which there is room.
   const std::vector<LocalBvhReport> reports = made.local->reports();
   const std::uint64_t overhead = memory.top_level / std::max<std::size_t>(reports.size(), 1);
   std::uint64_t total = memory.global_bvh;
-  std::size_t built = 0;
-  for (AreaPlan& plan : made.plans) {
-    if (!plan.build) continue;
-    const std::uint64_t bytes = reports[built++].bytes + overhead;
+  for (AreaStatus& status : made.areas) {
+    if (!status.built) continue;
+    const std::uint64_t bytes = reports[*status.built].bytes + overhead;
     if (total + bytes > *settings.memory) {
-      plan = {false, "it would take more memory than the scene allows"};
+      status.plan = {false, "it would take more memory than the scene allows"};
     } else {
       total += bytes;
     }
   }
-  build();
+  build_areas(made, world, settings.local);
 }
 
 void use_grids(Acceleration& made, const World& world, const Scene& settings, bool all) {
@@ -86,9 +76,10 @@ void use_grids(Acceleration& made, const World& world, const Scene& settings, bo
 
 Acceleration make_acceleration(const World& world, const Scene& settings, std::string_view name) {
   Acceleration made;
-  made.areas = areas_of(world, settings.influence_areas, settings.film);
-  for (const SceneArea& area : made.areas) made.plans.push_back(plan(local_area(area)));
-  const bool any = std::ranges::any_of(made.plans, &AreaPlan::build);
+  for (const SceneArea& area : areas_of(world, settings.influence_areas, settings.film))
+    made.areas.push_back({area, plan(local_area(area))});
+  const bool any =
+      std::ranges::any_of(made.areas, [](const AreaStatus& status) { return status.plan.build; });
   const std::string_view why_none = no_grids(world, settings);
   const std::string_view wanted = !name.empty()      ? name
                                   : any              ? local
@@ -101,8 +92,9 @@ Acceleration make_acceleration(const World& world, const Scene& settings, std::s
   if (made.name == local) {
     use_areas(made, world, settings.acceleration);
   } else {
-    for (AreaPlan& plan : made.plans)
-      if (plan.build) plan = {false, "the chosen accelerator does not use influence areas"};
+    for (AreaStatus& status : made.areas)
+      if (status.plan.build)
+        status.plan = {false, "the chosen accelerator does not use influence areas"};
   }
   if (made.name == light) {
     use_grids(made, world, settings, !name.empty());

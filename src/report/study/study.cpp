@@ -16,30 +16,6 @@ bool is_swept(const StudyArea& area, bool quick) {
 
 }  // namespace
 
-const char* name_of(Heuristic heuristic) {
-  switch (heuristic) {
-    case Heuristic::surface_area:
-      return "SAH";
-    case Heuristic::projected_area:
-      return "PAH";
-    case Heuristic::mean_direction:
-      return "mean direction";
-  }
-  return "";
-}
-
-const char* name_of(SplitAxis split) {
-  switch (split) {
-    case SplitAxis::best:
-      return "best";
-    case SplitAxis::longest:
-      return "longest";
-    case SplitAxis::facing:
-      return "SPFH";
-  }
-  return "";
-}
-
 StudyResults run_study(const std::vector<StudyMesh>& meshes, const StudyConfig& config,
                        const std::function<void(double, const std::string&)>& progress) {
   StudyResults results;

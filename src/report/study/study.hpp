@@ -40,9 +40,6 @@ inline constexpr std::size_t study_groups = 6;
 [[nodiscard]] const char* name_of(StudyGroup group);
 [[nodiscard]] inline bool is_point(StudyGroup group) { return group >= StudyGroup::point_outside; }
 
-[[nodiscard]] const char* name_of(Heuristic heuristic);
-[[nodiscard]] const char* name_of(SplitAxis split);
-
 // Which tree a row is about.
 struct StudyCase {
   std::string mesh, area;

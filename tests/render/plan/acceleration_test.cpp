@@ -60,11 +60,10 @@ TEST_CASE("declared areas are built, derived ones are not yet worth it") {
   Scene scene = scene_with_area();
   const World world = make_world(scene);
   const Acceleration acceleration = make_acceleration(world, scene);
-  REQUIRE(acceleration.plans.size() == acceleration.areas.size());
   CHECK(acceleration.areas.size() > 1);
-  for (std::size_t i = 0; i < acceleration.areas.size(); ++i) {
-    CHECK(acceleration.plans[i].build == acceleration.areas[i].declared);
-    CHECK(!acceleration.plans[i].reason.empty());
+  for (const AreaStatus& status : acceleration.areas) {
+    CHECK(status.plan.build == status.area.declared);
+    CHECK(!status.plan.reason.empty());
   }
   scene.influence_areas.declared.clear();
   CHECK(make_acceleration(world, scene).name == "bvh");
@@ -106,23 +105,8 @@ TEST_CASE("an accelerator that is asked for by name is made, and no other") {
     CHECK(acceleration.name == known.name);
     CHECK((acceleration.local != nullptr) == (known.name == "local"));
     CHECK((acceleration.grids != nullptr) == (known.name == "light"));
-    for (const AreaPlan& plan : acceleration.plans)
-      if (known.name != "local") CHECK(!plan.build);
+    for (const AreaStatus& status : acceleration.areas)
+      if (known.name != "local") CHECK(!status.plan.build);
   }
   CHECK_THROWS_AS(make_acceleration(world, scene, "bvhh"), std::invalid_argument);
-}
-
-TEST_CASE("acceleration settings reach the builder") {
-  AccelerationSettings settings;
-  settings.heuristic = Heuristic::projected_area;
-  settings.split_axis = SplitAxis::facing;
-  settings.bins = 7;
-  settings.max_leaf_triangles = 3;
-  settings.least_share = 0.25;
-  const LocalConfig config = local_config(settings);
-  CHECK(config.heuristic == Heuristic::projected_area);
-  CHECK(config.split == SplitAxis::facing);
-  CHECK(config.build.bins == 7);
-  CHECK(config.build.max_leaf == 3);
-  CHECK(config.build.least_share == 0.25);
 }

@@ -235,9 +235,8 @@ TEST_CASE("of declared areas as many are built as memory suffices for") {
     CHECK(acceleration.name == "local");
     CHECK(acceleration.accelerator->memory().total() <= memory);
     std::vector<bool> are_built;
-    for (std::size_t i = 0; i < acceleration.areas.size(); ++i) {
-      if (!acceleration.areas[i].declared) continue;
-      const AreaPlan& plan = acceleration.plans[i];
+    for (const auto& [area, plan, built] : acceleration.areas) {
+      if (!area.declared) continue;
       are_built.push_back(plan.build);
       CHECK(plan.reason == (plan.build ? "declared" : would_be_too_large));
     }

@@ -75,10 +75,7 @@ void read_leaf_rules(MapReader& map, LeafRules& rules) {
 }
 
 void read_top_level(MapReader& map, TopLevelConfig& config) {
-  map.option("top_level", config.kind,
-             EnumNames<TopLevelKind>{{"none", TopLevelKind::none},
-                                     {"list", TopLevelKind::list},
-                                     {"octree", TopLevelKind::octree}});
+  map.option("top_level", config.kind, names_of<TopLevelKind>(top_level_names));
   map.optional("octree_depth", config.octree_depth, 0, 10);
   double degrees = 0;
   if (map.optional("direction_tolerance", degrees, NumberRange{0, 180, false, false}))
@@ -89,26 +86,21 @@ void read_top_level(MapReader& map, TopLevelConfig& config) {
 
 void read_acceleration(SceneReading& reading, const YamlNode* node) {
   AccelerationSettings& settings = reading.scene.acceleration;
+  LocalConfig& local = settings.local;
   read_map(reading.context, node, "acceleration", "acceleration", [&](MapReader& map) {
-    map.option("heuristic", settings.heuristic,
-               EnumNames<std::optional<Heuristic>>{{"auto", std::nullopt},
-                                                   {"sah", Heuristic::surface_area},
-                                                   {"pah", Heuristic::projected_area},
-                                                   {"mean_direction", Heuristic::mean_direction}});
-    map.option("split_axis", settings.split_axis,
-               EnumNames<SplitAxis>{{"auto", SplitAxis::best},
-                                    {"longest", SplitAxis::longest},
-                                    {"facing", SplitAxis::facing}});
-    map.optional("bins", settings.bins, int{BuildConfig::min_bins}, int{BuildConfig::max_bins});
-    map.optional("max_leaf_triangles", settings.max_leaf_triangles, 1, int{BuildConfig::most_leaf});
-    map.optional("least_share", settings.least_share, NumberRange{0, 0.5, false, false});
-    read_leaf_rules(map, settings.leaves);
-    map.optional("facing_threshold", settings.facing.threshold, unit_range);
-    map.optional("acceptable_ratio", settings.facing.acceptable_ratio, ratio_range);
-    map.optional("excellent_ratio", settings.facing.excellent_ratio, ratio_range);
-    if (std::uint32_t levels = 0; map.optional("non_fallback_levels", levels, 0U, most_levels))
-      settings.non_fallback_levels = levels;
-    read_top_level(map, settings.top_level);
+    EnumNames<Heuristic> heuristics = names_of<Heuristic>(heuristic_names);
+    heuristics.insert(heuristics.begin(), {"auto", LocalConfig{}.heuristic});
+    map.option("heuristic", local.heuristic, heuristics);
+    map.option("split_axis", local.split, names_of<SplitAxis>(split_axis_names));
+    map.optional("bins", local.build.bins, BuildConfig::min_bins, BuildConfig::max_bins);
+    map.optional("max_leaf_triangles", local.build.max_leaf, 1U, BuildConfig::most_leaf);
+    map.optional("least_share", local.build.least_share, NumberRange{0, 0.5, false, false});
+    read_leaf_rules(map, local.build.leaves);
+    map.optional("facing_threshold", local.facing.threshold, unit_range);
+    map.optional("acceptable_ratio", local.facing.acceptable_ratio, ratio_range);
+    map.optional("excellent_ratio", local.facing.excellent_ratio, ratio_range);
+    map.optional("non_fallback_levels", local.non_fallback_levels, 0U, most_levels);
+    read_top_level(map, local.top_level);
     if (const YamlNode* memory = map.find("memory"))
       read_bytes(reading.context, *memory, map.name_of("memory"), settings.memory);
   });

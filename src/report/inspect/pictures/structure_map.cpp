@@ -13,9 +13,8 @@ namespace {
 // The global BVH in gray, then areas and grids that were built, in their order.
 std::vector<LegendColor> legend_of(const World& world, const Acceleration& acceleration) {
   std::vector<LegendColor> legend{legend_color("global BVH", 0)};
-  for (std::size_t i = 0; i < acceleration.areas.size(); ++i)
-    if (acceleration.plans[i].build)
-      legend.push_back(legend_color("area " + acceleration.areas[i].name, legend.size()));
+  for (const AreaStatus& status : acceleration.areas)
+    if (status.built) legend.push_back(legend_color("area " + status.area.name, legend.size()));
   if (acceleration.grids != nullptr)
     for (const LightGridReport& grid : acceleration.grids->reports())
       legend.push_back(legend_color("grid of " + world.lights[grid.bundle].name, legend.size()));

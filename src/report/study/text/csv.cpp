@@ -21,8 +21,8 @@ constexpr const char* case_columns = "mesh,area,group,triangles,heuristic,split"
 
 std::string cells(const StudyCase& tree) {
   return fmt::format("{},{},{},{},{},{}", quoted(tree.mesh), quoted(tree.area),
-                     quoted(name_of(tree.group)), tree.triangles, name_of(tree.heuristic),
-                     name_of(tree.split));
+                     quoted(name_of(tree.group)), tree.triangles, label_of(tree.heuristic),
+                     label_of(tree.split));
 }
 
 }  // namespace

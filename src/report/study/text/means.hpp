@@ -36,7 +36,7 @@ struct StudyVariant {
     return row.tree.heuristic == heuristic && row.tree.split == split;
   }
   [[nodiscard]] std::string name() const {
-    return std::string(name_of(heuristic)) + " + " + name_of(split);
+    return std::string(label_of(heuristic)) + " + " + label_of(split);
   }
 };
 
