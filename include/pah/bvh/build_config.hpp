@@ -40,7 +40,7 @@ enum class Heuristic : std::uint8_t {
                   // not clipped to the area; as fast to compute as SAH
 };
 
-// Which axes of a node may be split.
+// The axes of a node that may be split.
 enum class SplitAxis : std::uint8_t {
   best,     // the cheapest split of all three
   longest,  // the cheapest split of the node's longest axis
