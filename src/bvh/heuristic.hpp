@@ -1,4 +1,4 @@
-// What a heuristic tells the builder.
+// The heuristics that guide the builder.
 #pragma once
 
 #include <array>

@@ -3,7 +3,6 @@
 // time, and every operation rounds as the scalar one does.
 #pragma once
 
-#include <algorithm>
 #include <bit>
 #include <cstdint>
 #include <cstring>
@@ -64,11 +63,6 @@ struct Transposed {
           __builtin_shufflevector(xy_ab, xy_cd, 2, 3, 6, 7),
           __builtin_shufflevector(zw_ab, zw_cd, 0, 1, 4, 5),
           __builtin_shufflevector(zw_ab, zw_cd, 2, 3, 6, 7)};
-}
-
-// The largest of x, y and z.
-[[nodiscard, gnu::always_inline]] inline float largest_of(Float4 a) {
-  return std::max(a[0], std::max(a[1], a[2]));
 }
 
 }  // namespace pah

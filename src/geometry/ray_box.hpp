@@ -37,13 +37,13 @@ namespace pah {
 
 [[nodiscard]] inline float largest_of(const Vec3& v) { return std::max(v.x, std::max(v.y, v.z)); }
 
-// The padding of a box around triangles. A box inside another one is inside it when both are
-// padded.
-[[nodiscard, gnu::always_inline]] inline float padding_of(const Aabb& box) {
-  return box_padding * largest_of(glm::max(glm::abs(box.min), glm::abs(box.max)));
+// The largest absolute coordinate of a box.
+[[nodiscard, gnu::always_inline]] inline float magnitude_of(const Aabb& box) {
+  return largest_of(glm::max(glm::abs(box.min), glm::abs(box.max)));
 }
+// Pads a box around triangles. A box inside another one is still inside it when both are padded.
 [[nodiscard, gnu::always_inline]] inline Aabb padded(const Aabb& box) {
-  const float padding = padding_of(box);
+  const float padding = box_padding * magnitude_of(box);
   return {box.min - padding, box.max + padding};
 }
 

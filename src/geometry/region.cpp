@@ -127,11 +127,7 @@ void fill_vertices(RegionShape& shape, const DVec3& origin, Corner corner) {
 RegionShape make_shape(const Aabb& box, double dilation) {
   RegionShape shape;
   shape.box = {round_down(DVec3(box.min) - dilation), -round_down(-(DVec3(box.max) + dilation))};
-  const Vec3& low = shape.box.min;
-  const Vec3& high = shape.box.max;
-  for (std::size_t i = 0; i < 8; ++i)
-    shape.vertices[i] = {(i & 1) != 0 ? high.x : low.x, (i & 2) != 0 ? high.y : low.y,
-                         (i & 4) != 0 ? high.z : low.z};
+  for (unsigned i = 0; i < 8; ++i) shape.vertices[i] = shape.box.corner(i);
   shape.normals = {DVec3(1, 0, 0), DVec3(0, 1, 0), DVec3(0, 0, 1)};
   shape.edges = shape.normals;
   shape.normal_count = shape.edge_count = 3;

@@ -27,7 +27,7 @@ HWY_INLINE bool holds(const Aabb& box, const Vec3& p) {
          p.y <= box.max.y && p.z <= box.max.z;
 }
 
-// Where a ray is in a cell, and its distance from the light.
+// A place in a cell, and the distance from the light.
 struct Place {
   std::uint32_t cell;
   float depth;

@@ -27,11 +27,7 @@ struct FaceExtent {
 
 std::array<DVec3, 8> corners_on(const auto& view, int face, const Aabb& box) {
   std::array<DVec3, 8> corners;
-  for (unsigned i = 0; i < 8; ++i) {
-    corners[i] = view.local(
-        face, {(i & 1U) != 0 ? box.max.x : box.min.x, (i & 2U) != 0 ? box.max.y : box.min.y,
-               (i & 4U) != 0 ? box.max.z : box.min.z});
-  }
+  for (unsigned i = 0; i < 8; ++i) corners[i] = view.local(face, DVec3(box.corner(i)));
   return corners;
 }
 

@@ -52,10 +52,6 @@ class ParallelView {
     const DVec3 w = point - DVec3(center_);
     return {glm::dot(basis_[0], w), glm::dot(basis_[1], w), -glm::dot(basis_[2], w)};
   }
-  [[nodiscard]] static Interval limits(int /*face*/, int /*axis*/) {
-    constexpr double everywhere = std::numeric_limits<double>::infinity();
-    return {-everywhere, everywhere};
-  }
   // The axes of u, v and -depth.
   [[nodiscard]] const glm::mat3& axes() const { return rounded_; }
   [[nodiscard]] const Vec3& center() const { return center_; }

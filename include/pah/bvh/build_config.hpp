@@ -48,7 +48,7 @@ inline constexpr EnumName<Heuristic> heuristic_names[]{
   return label_of<Heuristic>(heuristic_names, heuristic);
 }
 
-// Which axes of a node may be split.
+// The axes of a node that may be split.
 enum class SplitAxis : std::uint8_t {
   best,     // the cheapest split of all three
   longest,  // the cheapest split of the node's longest axis

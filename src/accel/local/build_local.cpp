@@ -13,11 +13,6 @@ namespace pah {
 
 namespace {
 
-// The largest absolute coordinate of a box.
-float magnitude_of(const Aabb& box) {
-  return largest_of(glm::max(glm::abs(box.min), glm::abs(box.max)));
-}
-
 // Let u be the unit roundoff and M the largest absolute coordinate of the region and of a
 // triangle's box. Differences of coordinates are at most 2 M. The end of a segment misses the eye
 // at which it is aimed by the rounding of the eye to float (u M), of the direction (4 u M), of the
