@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# The README's commands for Slurm, with the job scripts of scenes/slurm, on a Slurm of one node: parts
+# The documented commands for Slurm, with the job scripts of scenes/slurm, on a Slurm of one node: parts
 # of a picture, one of which fails and is submitted again, their merging, frames, and a part that is
 # interrupted.
 set -euo pipefail
@@ -131,12 +131,12 @@ fail() {
 must_be() { [[ $2 == "$3" ]] || fail "$1: '$2' where '$3' was expected"; }
 same() { "$PAHRENDER" compare "$1" "$2" --threshold 0 >/dev/null || fail "$1 is not $2"; }
 
-# Of the README, the blocks that name the scripts: submitting all, and one part again.
+# The blocks of the document that name the scripts: submitting all, and one part again.
 mapfile -d '' blocks < <(awk '
   /^```$/ {if (block ~ /scenes\/slurm/) printf "%s%c", block, 0; inside = 0; block = ""}
   inside {block = block $0 "\n"}
-  /^```sh$/ {inside = 1}' "$source/README.md")
-must_be "the README's blocks of commands for Slurm" "${#blocks[@]}" 2
+  /^```sh$/ {inside = 1}' "$source/docs/command_line.md")
+must_be "the document's blocks of commands for Slurm" "${#blocks[@]}" 2
 
 # They are for a scene.yaml here: the turntable, small.
 ln -s "$scenes" scenes
@@ -145,7 +145,7 @@ sed 's/width: 480, height: 360/width: 48, height: 36/; s/samples: 64/samples: 2/
   "$scenes/turntable.yaml" >scene.yaml
 whole() { "$PAHRENDER" scene.yaml --quiet "$@"; }
 
-echo "The README's commands, while part 3 cannot be written:"
+echo "The document's commands, while part 3 cannot be written:"
 mkdir picture.exr.part-3.film
 parts='' merge=''
 eval "${blocks[0]}" >submitted
@@ -164,7 +164,7 @@ must_be "the frames" "$(states_of "$frames")" "24 JobState=COMPLETED"
 whole --frames 0:24 -o whole_####.png
 for frame in frame_*.png; do same "$frame" "whole_${frame#frame_}"; done
 
-echo "The README's commands for that part again:"
+echo "The document's commands for that part again:"
 rmdir picture.exr.part-3.film
 eval "${blocks[1]}"
 wait_for 120 "the picture" are_done "$merge"
@@ -199,7 +199,7 @@ sleep 2
 scontrol requeue "${parts}_0"
 wait_for 120 "the picture" are_done "$parts,$merge"
 cat "$log"
-grep -q 'going on from' "$log" || fail "it did not go on"
+grep -q 'resuming from' "$log" || fail "it did not go on"
 whole -o whole.exr --spp 6000
 same long.exr whole.exr
 

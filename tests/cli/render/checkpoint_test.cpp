@@ -117,7 +117,7 @@ TEST_CASE("an interrupt leaves a checkpoint, from which any number of samples go
   write_file("scene.yaml", small_scene);
   const Outcome outcome = interrupt(many + layers);
   CHECK(outcome.exit_code == 130);
-  CHECK(contains(outcome.err, "wrote out.exr.film: --resume goes on from it"));
+  CHECK(contains(outcome.err, "wrote out.exr.film; --resume continues from it"));
   CHECK(files() == Words{"out.exr", checkpoint, "scene.yaml"});
 
   const std::string samples = std::to_string(samples_kept() + 5);
@@ -125,7 +125,7 @@ TEST_CASE("an interrupt leaves a checkpoint, from which any number of samples go
   const Outcome resumed = run(rest + Words{"-o", "out.exr", "--resume", "--threads", "1"});
   INFO(resumed.err);
   CHECK(resumed.exit_code == 0);
-  CHECK(contains(resumed.err, "going on from out.exr.film: "));
+  CHECK(contains(resumed.err, "resuming from out.exr.film: "));
   CHECK(contains(resumed.err, "wrote out.exr: 32 x 24, " + samples + " samples"));
   CHECK(!fs::exists(checkpoint));
   render(rest + Words{"-o", "whole.exr"});
@@ -166,7 +166,7 @@ TEST_CASE("without a checkpoint a render starts anew and says so") {
   write_file("scene.yaml", small_scene);
   const Outcome outcome = run({"scene.yaml", "-o", "out.exr", "--resume", "--checkpoint", "5"});
   CHECK(outcome.exit_code == 0);
-  CHECK(contains(outcome.err, "there is no out.exr.film to go on from: starting anew"));
+  CHECK(contains(outcome.err, "out.exr.film does not exist; starting from the beginning"));
   CHECK(files() == Words{"out.exr", "scene.yaml"});
 }
 
@@ -176,7 +176,7 @@ TEST_CASE("a checkpoint that is about to be replaced is warned of") {
   interrupt(many);
   const Outcome outcome = run({"scene.yaml", "-o", "out.exr", "--checkpoint", "5"});
   CHECK(outcome.exit_code == 0);
-  CHECK(contains(outcome.err, "--resume would go on from it"));
+  CHECK(contains(outcome.err, "use --resume to continue it"));
   CHECK(!fs::exists(checkpoint));
 }
 

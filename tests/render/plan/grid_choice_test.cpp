@@ -235,7 +235,7 @@ TEST_CASE("of declared areas as many are built as memory suffices for") {
     CHECK(acceleration.name == "local");
     CHECK(acceleration.accelerator->memory().total() <= memory);
     std::vector<bool> are_built;
-    for (const auto& [area, plan, built] : acceleration.areas) {
+    for (const auto& [area, plan, built_index] : acceleration.areas) {
       if (!area.declared) continue;
       are_built.push_back(plan.build);
       CHECK(plan.reason == (plan.build ? "declared" : would_be_too_large));
