@@ -102,8 +102,7 @@ TEST_CASE("parts that overlap, are missing or of other renders are named") {
   render_part("b.film", "4:8");
   render_part("c.film", "9:10");
   render_part("d.film", "6:10");
-  check_refused({"a.film", "c.film", "b.film"},
-                "sample 8 is missing; render what is missing by --samples 8:9");
+  check_refused({"a.film", "c.film", "b.film"}, "sample 8 is missing; render with --samples 8:9");
   check_refused({"b.film"}, "samples 0 to 3 are missing");
   check_refused({"d.film", "a.film", "b.film"}, "b.film and d.film overlap: both have sample 6");
   check_refused({"a.film", "a.film"}, "a.film and a.film overlap");
@@ -111,15 +110,14 @@ TEST_CASE("parts that overlap, are missing or of other renders are named") {
   check_refused({"a.film", "scene.yaml"}, "scene.yaml is not a pahrender film");
 
   render_part("seed.film", "4:8", {"--seed", "9"});
-  check_refused({"a.film", "seed.film"}, "seed.film does not go with a.film: the seed is 9, not 3");
+  check_refused({"a.film", "seed.film"}, "seed.film does not match a.film: the seed is 9, not 3");
   write_file("scene.yaml", std::string(small_scene) + "# another\n");
   render_part("scene.film", "4:8");
-  check_refused({"a.film", "scene.film"},
-                "scene.film does not go with a.film: the scene (its text");
+  check_refused({"a.film", "scene.film"}, "scene.film does not match a.film: the scene (its text");
 
   pah::FilmFile film = pah::read_film("b.film");
   pah::write_film("b.film", film.origin, {4, 8, 2, {0}}, film.film);
-  check_refused({"a.film", "b.film"}, "b.film was stopped in the midst of a pass");
+  check_refused({"a.film", "b.film"}, "b.film was stopped in the middle of a pass");
 }
 
 TEST_CASE("parts by crops, and by samples besides, give the picture of the whole") {
@@ -151,7 +149,7 @@ TEST_CASE("parts by crops, and by samples besides, give the picture of the whole
   CHECK(same_picture("merged.png", "whole.png"));
 
   check_refused({"top.film", "left.film"},
-                "the pixels 20,32,9,24 are missing; render what is missing by --crop 20,32,9,24");
+                "the pixels 20,32,9,24 are missing; render them with --crop 20,32,9,24");
   check_refused(
       {"top.film", "left.film", "right_a.film"},
       "right_a.film has samples 0:2, and top.film has 0:6; every pixel needs the same samples");

@@ -49,7 +49,7 @@ TEST_CASE("wrong usage exits with 2 and says what is wrong") {
   check_failure({"--nope"}, 2, "--nope");
   check_failure({"scene.yaml", "--nope"}, 2, "--nope");
   check_failure({"scene.yaml", "other.yaml"}, 2, "other.yaml");
-  check_failure({"scene.yaml", "--samples", "4"}, 2, "for a number of samples there is --spp");
+  check_failure({"scene.yaml", "--samples", "4"}, 2, "use --spp for a number of samples");
   for (const char* range : {"", "1", ":", "1:", ":1", "1:1", "2:1", "-1:1", "0:1x", "0:9999999999"})
     check_failure({"scene.yaml", "-o", "a.film", "--samples", range}, 2, "--samples");
   check_failure({"scene.yaml", "--samples", "0:4"}, 2, "--samples is for .film files");

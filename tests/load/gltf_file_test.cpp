@@ -370,7 +370,7 @@ TEST_CASE("glTF: what is broken is said") {
   CHECK(has(broken("/buffers/0/byteLength", 141), "has 140 bytes of 141"));
   CHECK(has(broken("/bufferViews/0/byteLength", 141), "beyond its buffer"));
   CHECK(has(broken("/bufferViews/0/byteOffset", 13), "beyond its buffer"));
-  CHECK(has(broken("/bufferViews/0/byteOffset", -1), "not a sensible number"));
+  CHECK(has(broken("/bufferViews/0/byteOffset", -1), "not a valid number"));
   CHECK(has(broken("/bufferViews/0/buffer", 1), "'buffer' names number 1 of 1"));
   CHECK(has(broken("/accessors/0/count", 100), "beyond its buffer view"));
   CHECK(has(broken("/accessors/0/count", 0), "is empty"));
@@ -382,10 +382,10 @@ TEST_CASE("glTF: what is broken is said") {
   CHECK(has(broken("/accessors/3/componentType", 5126), ""));
   CHECK(has(broken("/meshes/0/primitives/0/indices", 2), "not whole numbers"));
   CHECK(has(broken("/meshes/0/primitives/0/attributes/POSITION", 9), "'POSITION' names"));
-  CHECK(has(broken("/nodes/0/children", {0}), "circle"));
+  CHECK(has(broken("/nodes/0/children", {0}), "cycle"));
   CHECK(has(broken("/nodes/0/children", {5}), "node 0 has a child that does not exist"));
   CHECK(has(broken("/accessors", 3), "not a list"));
-  CHECK(has(broken("/asset", 3), "not of the kind"));
+  CHECK(has(broken("/asset", 3), "has a type that glTF does not allow"));
   CHECK_FALSE(broken("/nodes/0/mesh", 3).empty());
   CHECK_FALSE(broken("/scenes/0/nodes", {7}).empty());
   CHECK_FALSE(broken("/meshes/0/primitives/0/material", 3).empty());
@@ -420,7 +420,7 @@ TEST_CASE("glTF: nodes in a circle, too deep, or shared") {
   const Files files;
   Json json = square();
   json["nodes"] = Json::parse(R"([{"mesh": 0}, {"children": [2]}, {"children": [1]}])");
-  CHECK(has(files.error_of(json), "circle"));
+  CHECK(has(files.error_of(json), "cycle"));
   json["nodes"] = Json::parse(R"([{"children": [1, 1]}, {"mesh": 0}])");
   CHECK(has(files.error_of(json), "more than one parent"));
   json["nodes"] = Json::array();

@@ -68,7 +68,7 @@ TEST_CASE("mistakes in keys and values") {
       {"meshes: [{shape: box, scatter: {count: 3, over: floor}}, {name: floor, shape: rectangle}]",
        "scene.yaml:1:49: error: unknown mesh 'floor' in 'over' of scatter of mesh 1; there are "
        "none: "
-       "a mesh has to come before those that name it"},
+       "a mesh must come before the meshes that name it"},
       {"materials: {m: {type: diffuse, reflectance: [255, 0, 1]}}",
        "scene.yaml:1:45: error: 'reflectance' of material 'm' goes from 0 to 1: divide by 255, or "
        "write \"#rrggbb\"\n"

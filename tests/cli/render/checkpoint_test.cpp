@@ -227,6 +227,6 @@ TEST_CASE("a checkpoint that cannot be written is warned of once, and the pictur
   const std::size_t first = outcome.err.find(warning);
   REQUIRE(first != std::string::npos);
   CHECK(outcome.err.find(warning, first + 1) == std::string::npos);
-  CHECK(contains(outcome.err, "; the render goes on"));
+  CHECK(contains(outcome.err, "; the render continues"));
   CHECK(files() == Words{"out.exr", checkpoint, "scene.yaml"});
 }

@@ -93,7 +93,7 @@ TEST_CASE("frames that are there and whole are kept, others are rendered") {
     const Outcome again = run(words);
     CHECK(again.exit_code == 0);
     for (const int frame : {0, 2, 3}) CHECK(contains(again.err, "wrote " + file(frame)));
-    CHECK(contains(again.err, file(1) + " is there already\n"));
+    CHECK(contains(again.err, file(1) + " is already complete\n"));
     CHECK(read_file(file(1)) == whole);
     const Outcome third = run(words);
     CHECK_FALSE(contains(third.err, "wrote"));
@@ -135,10 +135,12 @@ TEST_CASE("several frames need several files") {
     CHECK(outcome.exit_code == 2);
     return outcome.err;
   };
-  CHECK(contains(error_of(frames("0:2", {"-o", "a/out.png"})),
-                 "-o a/out.png is one file for 2 frames; name one for each: a/out_####.png"));
-  CHECK(contains(error_of(frames("0:2", {"-o", "f#.png", "--stats", "s.json"})),
-                 "--stats s.json is one file for 2 frames; name one for each: s_####.json"));
+  CHECK(contains(
+      error_of(frames("0:2", {"-o", "a/out.png"})),
+      "-o a/out.png names one file for 2 frames; name one for each frame: a/out_####.png"));
+  CHECK(
+      contains(error_of(frames("0:2", {"-o", "f#.png", "--stats", "s.json"})),
+               "--stats s.json names one file for 2 frames; name one for each frame: s_####.json"));
   for (const std::string range : {"2:2", "-1:2", "1:", ":1", "a:b", "1:2:3", "1.5", ""})
     CHECK(contains(error_of(frames(range, {"-o", "f#.png"})), "--frames"));
   CHECK(files() == Words{"scene.yaml"});

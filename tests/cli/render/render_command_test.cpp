@@ -213,7 +213,7 @@ TEST_CASE("PNG files have 16 bits with --png-bits, and no room for layers, which
   CHECK(OIIO::ImageInput::open("out.PNG")->spec().format == OIIO::TypeUInt16);
   const Outcome outcome = run({"scene.yaml", "-o", "out.png", "-D", "film.channels=[depth]"});
   CHECK(outcome.exit_code == 0);
-  CHECK(outcome.err.starts_with("warning: out.png has no room for the 'channels' of film"));
+  CHECK(outcome.err.starts_with("warning: out.png cannot hold the 'channels' of film"));
 }
 
 TEST_CASE("TIFF files are linear, as EXR files are") {

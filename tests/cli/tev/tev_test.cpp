@@ -204,7 +204,7 @@ TEST_CASE("a viewer that reads nothing keeps nobody waiting") {
     stream.finish();
     CHECK(Clock::now() - finishing >= 190ms);
     CHECK(stream.take_fault() ==
-          "tev on " + listener.address() + " is slow, and does not have all of the picture");
+          "tev on " + listener.address() + " is too slow: it did not receive the whole picture");
     CHECK(!stream.take_fault());
   }
   SECTION("it is not if the picture is given up") {}

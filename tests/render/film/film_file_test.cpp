@@ -113,8 +113,8 @@ TEST_CASE("every byte of a film that is changed is found") {
       bad[at] = static_cast<char>(bad[at] ^ change);
       CAPTURE(at, change);
       const std::string error = error_of(bad);
-      REQUIRE(contains(error, "bad.film is "));
-      if (at < 8) REQUIRE(contains(error, "not a film"));
+      REQUIRE(contains(error, "bad.film "));
+      if (at < 8) REQUIRE(contains(error, "not a pahrender film"));
       if (at >= 8 && at < 16) REQUIRE(contains(error, "reads format 1"));
     }
 }
