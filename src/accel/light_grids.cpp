@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <pah/accel/light_grids.hpp>
 
+#include "base/stopwatch.hpp"
 #include "bvh/build.hpp"
 #include "light_space/light_grid.hpp"
 
@@ -25,15 +25,15 @@ GridLists lists_of(const LightGrid& grid) {
 class LightGridsOverBvh final : public LightGrids {
  public:
   explicit LightGridsOverBvh(const Triangles& triangles) {
-    const Clock::time_point start = Clock::now();
+    const Stopwatch stopwatch;
     bvh_ = build_bvh(triangles).bvh;
-    bvh_build_seconds_ = seconds_since(start);
+    bvh_build_seconds_ = stopwatch.seconds();
   }
 
   void add(const LightBundle& bundle) override {
-    const Clock::time_point start = Clock::now();
+    const Stopwatch stopwatch;
     auto grid = std::make_unique<LightGrid>(bvh_, bundle.rays);
-    const LightGridReport report{bundle.bundle, grid->memory_bytes(), seconds_since(start),
+    const LightGridReport report{bundle.bundle, grid->memory_bytes(), stopwatch.seconds(),
                                  lists_of(*grid)};
     grids_.insert(place_of(bundle.bundle), {report, std::move(grid)});
   }
@@ -83,16 +83,11 @@ class LightGridsOverBvh final : public LightGrids {
   [[nodiscard]] double bvh_build_seconds() const override { return bvh_build_seconds_; }
 
  private:
-  using Clock = std::chrono::steady_clock;
-
   struct BundleGrid {
     LightGridReport report;
     std::unique_ptr<LightGrid> grid;
   };
 
-  [[nodiscard]] static double seconds_since(Clock::time_point start) {
-    return std::chrono::duration<double>(Clock::now() - start).count();
-  }
   // The position of the bundle's grid, or where to insert it.
   [[nodiscard]] std::vector<BundleGrid>::const_iterator place_of(std::uint32_t bundle) const {
     return std::ranges::lower_bound(grids_, bundle, {},

@@ -2,9 +2,9 @@
 
 #include <chrono>
 
-namespace pah::cli {
+namespace pah {
 
-// Runs from when it is made.
+// Measures the time since its construction, by a clock that is never set back.
 class Stopwatch {
  public:
   [[nodiscard]] double seconds() const {
@@ -16,4 +16,4 @@ class Stopwatch {
   Clock::time_point start_ = Clock::now();
 };
 
-}  // namespace pah::cli
+}  // namespace pah

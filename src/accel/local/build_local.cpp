@@ -1,11 +1,11 @@
 #include "accel/local/build_local.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <pah/influence/bundle_area.hpp>
 
 #include "accel/local/bundle_heuristic.hpp"
 #include "base/parallel_for.hpp"
+#include "base/stopwatch.hpp"
 #include "bvh/bvh_cost.hpp"
 #include "geometry/rounding.hpp"
 
@@ -56,11 +56,11 @@ BuiltBvh build_local(const Triangles& triangles, std::span<const std::uint32_t> 
 
 BuiltLocalBvh build_local_bvh(const Triangles& triangles, const InfluenceArea& area,
                               const LocalConfig& config) {
-  const auto start = std::chrono::steady_clock::now();
+  const Stopwatch stopwatch;
   BuiltLocalBvh local;
   local.triangles = local_triangles(triangles, area);
   local.built = build_local(triangles, local.triangles.subset, area, config);
-  local.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  local.seconds = stopwatch.seconds();
   return local;
 }
 

@@ -117,27 +117,4 @@ std::span<const AreaCandidate> AreaOctree::leaf_of(const Vec3& point) const {
   return std::span(candidates_).subspan(node->first, node->count);
 }
 
-std::vector<std::vector<Aabb>> AreaOctree::cells(std::size_t levels) const {
-  std::vector<std::vector<Aabb>> boxes;
-  std::vector<std::uint32_t> nodes{0};  // the nodes of a level, in the order of its boxes
-  if (levels > 0 && !box_.empty()) boxes.push_back({box_});
-  while (!boxes.empty() && boxes.size() < levels) {
-    std::vector<std::uint32_t> nodes_below;
-    std::vector<Aabb> below;
-    for (std::size_t i = 0; i < nodes.size(); ++i) {
-      const Node& node = nodes_[nodes[i]];
-      if (node.count != inner) continue;
-      const Aabb& box = boxes.back()[i];
-      for (unsigned half = 0; half < 8; ++half) {
-        nodes_below.push_back(node.first + half);
-        below.push_back(half_box(box, middle(box), half));
-      }
-    }
-    if (below.empty()) break;
-    nodes = std::move(nodes_below);
-    boxes.push_back(std::move(below));
-  }
-  return boxes;
-}
-
 }  // namespace pah

@@ -58,10 +58,6 @@ class AreaOctree {
   }
   [[nodiscard]] std::span<const AreaCandidate> leaf_of(const Vec3& point) const;
 
-  // The boxes of the cells of the first `levels` levels, divided cells included; none without
-  // areas.
-  [[nodiscard]] std::vector<std::vector<Aabb>> cells(std::size_t levels) const;
-
   [[nodiscard]] std::size_t nodes() const { return nodes_.size(); }
   [[nodiscard]] int depth() const { return depth_; }
   [[nodiscard]] std::size_t memory_bytes() const {
