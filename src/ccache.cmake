@@ -1,5 +1,5 @@
-# Compiles through ccache, where it is found and can write, so that another checkout of the project
-# finds what this one compiled.
+# Compiles through ccache if it is found and can write, so that other checkouts of the project reuse
+# the results.
 find_program(CCACHE_PROGRAM ccache)
 if(NOT CCACHE_PROGRAM)
   return()
@@ -17,7 +17,7 @@ if(ccache_failed)
 endif()
 file(REMOVE ${ccache_probe})
 
-# Paths below the project count as relative, and precompiled headers by what is in them.
+# Paths below the project are hashed as relative paths, precompiled headers by their content.
 set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env
   CCACHE_BASEDIR=${PROJECT_SOURCE_DIR} CCACHE_NOHASHDIR=1
   CCACHE_SLOPPINESS=pch_defines,time_macros,include_file_mtime,include_file_ctime

@@ -1,5 +1,5 @@
-# What `cmake --install` puts where: the program, the library for find_package(pahrender), and the
-# schema of the scene language.
+# `cmake --install` installs the program, the library for find_package(pahrender) and the schema of
+# the scene language.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
