@@ -65,7 +65,7 @@ Material material_of(const std::string& name, const MtlMaterial& m) {
 }
 
 // Keys that say nothing of how a surface looks here.
-constexpr std::string_view silent[] = {"Ka", "Tf", "sharpness", "map_aat", "map_Ka"};
+constexpr std::string_view ignored_keys[] = {"Ka", "Tf", "sharpness", "map_aat", "map_Ka"};
 
 // How many words an option of a map has behind it, or none if it is no option.
 std::optional<int> words_of_option(std::string_view option) {
@@ -133,7 +133,8 @@ class MtlReader {
       m.opacity_map = map(words, ColorSpace::linear);
     else if (key == "norm" || key == "map_Kn")
       m.normal_map = map(words, ColorSpace::linear);
-    else if (std::find(std::begin(silent), std::end(silent), key) == std::end(silent))
+    else if (std::find(std::begin(ignored_keys), std::end(ignored_keys), key) ==
+             std::end(ignored_keys))
       leave_out(key);
   }
 

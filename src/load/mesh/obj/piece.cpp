@@ -10,7 +10,7 @@ namespace pah {
 namespace {
 
 // Not drawn, or without a meaning for a picture.
-constexpr std::string_view silent[] = {
+constexpr std::string_view ignored_keywords[] = {
     "o",      "g",      "s",     "l",        "p",        "vp",         "mg",        "lod",
     "usemap", "maplib", "bevel", "c_interp", "d_interp", "shadow_obj", "trace_obj", "end"};
 
@@ -117,7 +117,8 @@ void ObjPiece::begin(Words& words) {
     material_uses.push_back({face_sizes.size(), words.rest()});
   else if (keyword == "mtllib")
     libraries.push_back(words.rest());
-  else if (std::find(std::begin(silent), std::end(silent), keyword) == std::end(silent))
+  else if (std::find(std::begin(ignored_keywords), std::end(ignored_keywords), keyword) ==
+           std::end(ignored_keywords))
     add_ignored(ignored, keyword, line_);
 }
 
