@@ -9,12 +9,12 @@
 namespace pah {
 namespace {
 
-// Not drawn, or without a meaning for a picture.
+// Statements that are not drawn, or have no effect on a picture.
 constexpr std::string_view ignored_keywords[] = {
     "o",      "g",      "s",     "l",        "p",        "vp",         "mg",        "lod",
     "usemap", "maplib", "bevel", "c_interp", "d_interp", "shadow_obj", "trace_obj", "end"};
 
-// As std::from_chars(), but faster for short numbers without a sign, as most are.
+// Like std::from_chars(), but faster for short numbers without a sign, which are most.
 std::from_chars_result read_whole(const char* at, const char* last, std::int64_t& number) {
   constexpr std::ptrdiff_t most_digits = 9;
   const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
