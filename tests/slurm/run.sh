@@ -180,7 +180,7 @@ wait_for 120 "the frames" are_done "$frames"
 must_be "the frames" "$(states_of "$frames")" "3 JobState=COMPLETED"
 cat "slurm-${frames}"_[0-2].out
 same frame_0001.png whole_0001.png
-must_be "the frames that were kept" "$(grep -l 'is there already' "slurm-${frames}"_?.out | wc -l)" 2
+must_be "the frames that were kept" "$(grep -l 'is already complete' "slurm-${frames}"_?.out | wc -l)" 2
 
 echo "Names with blanks, and 10 samples in 4 parts of 2 CPUs:"
 parts=$(submit --array=0-3 --cpus-per-task=2 "$scenes/slurm/part.sh" scene.yaml "a picture.exr" 10 4)
@@ -194,7 +194,7 @@ echo "A part that is queued again while it runs:"
 parts=$(submit --array=0 --open-mode=append "$scenes/slurm/part.sh" scene.yaml long.exr 6000 1)
 merge=$(submit --dependency=afterok:"$parts" "$scenes/slurm/merge.sh" long.exr)
 log=slurm-${parts}_0.out
-wait_for 60 "the part to run" grep -q "starting anew" "$log"
+wait_for 60 "the part to run" grep -q "starting from the beginning" "$log"
 sleep 2
 scontrol requeue "${parts}_0"
 wait_for 120 "the picture" are_done "$parts,$merge"
