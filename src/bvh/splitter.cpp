@@ -140,7 +140,7 @@ std::optional<Halves> Splitter::split(const ItemRange& range, const Box4& box,
   const BuildHeuristic& heuristic =
       depth >= heuristic_.deeper_from ? *heuristic_.deeper : heuristic_;
   const BinnedSplit best = heuristic.search
-                               ? search(range, box, centroids, heuristic)
+                               ? search(range, box, centroids, heuristic, *heuristic.search)
                                : cheapest(range, centroids, heuristic.axes(box.aabb()), heuristic);
   if (leaf_allowed) {
     const float measure = measure_of(heuristic.measure, box.aabb());
@@ -181,9 +181,8 @@ Splitter::BinnedSplit Splitter::cheapest(const ItemRange& range, const Box4& cen
 
 // Tries the axes one after the other, as AxisSearch says.
 Splitter::BinnedSplit Splitter::search(const ItemRange& range, const Box4& box,
-                                       const Box4& centroids,
-                                       const BuildHeuristic& heuristic) const {
-  const AxisSearch& rules = *heuristic.search;
+                                       const Box4& centroids, const BuildHeuristic& heuristic,
+                                       const AxisSearch& rules) const {
   const float whole = measure_of(heuristic.measure, box.aabb());
   std::unique_ptr<BinnedSplit> best;
   const auto ratio = [&] {

@@ -46,7 +46,7 @@ class Splitter {
   [[nodiscard]] BinnedSplit cheapest(const ItemRange& range, const Box4& centroids, AxisMask axes,
                                      const BuildHeuristic& heuristic) const;
   [[nodiscard]] BinnedSplit search(const ItemRange& range, const Box4& box, const Box4& centroids,
-                                   const BuildHeuristic& heuristic) const;
+                                   const BuildHeuristic& heuristic, const AxisSearch& rules) const;
 
   std::uint32_t bins_;
   std::uint32_t max_leaf_;

@@ -19,7 +19,7 @@ ExitCode run_compare(const CompareArguments& arguments) {
   else
     fmt::print("mse    {:.6g}\nrelmse {:.6g}\nmax    {:.6g}\n", difference.mse, difference.relmse,
                difference.max);
-  // Not `max > threshold`: a picture with NaNs must not pass.
+  // `max > threshold` would let a picture with NaNs pass.
   if (arguments.threshold && !(difference.max <= *arguments.threshold)) return ExitCode::failed;
   return ExitCode::done;
 }

@@ -1,4 +1,4 @@
-// pahrender compare A B
+// The command `pahrender compare A B`.
 #pragma once
 
 #include <filesystem>

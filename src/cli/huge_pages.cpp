@@ -1,7 +1,7 @@
-// Large arrays on huge pages. The first touch of a page costs as much as writing it many times, and
-// a tree of a million triangles has more pages of 4 KiB than the processor keeps addresses of:
-// where the system leaves the choice to programs, this one chooses pages of 2 MiB. It replaces the
-// global allocation functions, as [new.delete] permits, so that no container need know.
+// Puts large arrays on huge pages. The first touch of a page costs as much as writing it many
+// times, and a tree of a million triangles has more pages of 4 KiB than the TLB holds. Where the
+// system leaves the choice to programs, this file chooses pages of 2 MiB. It replaces the global
+// allocation functions, as [new.delete] permits, so all containers benefit.
 #include <sys/mman.h>
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 namespace {
 
 constexpr std::size_t huge_page = std::size_t{2} << 20U;
-// At most a third of it is lost to the last page.
+// From this size on, at most a third of an allocation is lost to its last page.
 constexpr std::size_t large = 2 * huge_page;
 
 std::size_t rounded_up(std::size_t size, std::size_t multiple) {
@@ -24,7 +24,7 @@ void* try_allocate(std::size_t size, std::size_t alignment) {
   if (size >= large && size <= SIZE_MAX - huge_page) {
     const std::size_t whole = rounded_up(size, huge_page);
     if (void* memory = std::aligned_alloc(std::max(alignment, huge_page), whole)) {
-      ::madvise(memory, whole, MADV_HUGEPAGE);  // advice: what comes of it does not matter
+      ::madvise(memory, whole, MADV_HUGEPAGE);  // only advice: failure does not matter
       return memory;
     }
   }

@@ -50,7 +50,7 @@ struct TimedBvh {
   double seconds = 0;
 };
 
-// As renders without influence areas have it.
+// Builds the same BVH as a render without influence areas.
 TimedBvh build_global(const Triangles& triangles) {
   const auto start = std::chrono::steady_clock::now();
   BuiltBvh built = build_bvh(triangles);
@@ -161,7 +161,7 @@ ExitCode run_inspect(const InspectArguments& arguments) {
                          .memory_bytes = global.built.bvh.memory_bytes(),
                          .build_seconds = global.seconds});
 
-  // As a render decides.
+  // Chooses structures as a render does.
   const Acceleration acceleration = make_acceleration(world, scene);
   warnings.add(warnings_of(acceleration, world, scene));
   const std::vector<SceneArea> areas = reported_areas(acceleration, arguments.all_areas);

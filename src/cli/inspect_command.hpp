@@ -1,4 +1,4 @@
-// pahrender inspect SCENE
+// The command `pahrender inspect SCENE`.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@
 
 namespace pah::cli {
 
-// What is not set stays as the scene says; files that are not named are not written.
+// Unset options keep the scene's values; files with an empty path are not written.
 struct InspectArguments {
   std::filesystem::path scene;
   std::vector<std::string> overrides;  // key.path=value

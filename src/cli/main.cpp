@@ -247,7 +247,7 @@ CLI::App* add_watch(CLI::App& app, RenderArguments& arguments) {
   return watch;
 }
 
-// Options before a subcommand would be silently ignored.
+// Throws UsageError for options before a subcommand, which would be ignored in silence.
 void reject_render_options(const CLI::App& app, const CLI::App& subcommand) {
   for (const CLI::Option* option : app.get_options())
     if (option->count() > 0)

@@ -1,4 +1,4 @@
-// What the values of options may be.
+// Parsers and validators of option values.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -10,12 +10,12 @@
 
 namespace pah::cli {
 
-// "X0,X1,Y0,Y1" of a rectangle that is not empty.
+// Parses "X0,X1,Y0,Y1", a rectangle that is not empty.
 [[nodiscard]] std::optional<PixelRect> parse_crop(std::string_view text);
 
-// "FROM:TO" of at least one, with TO at most 2^30.
+// Parses "FROM:TO", a range that is not empty, with TO at most 2^30.
 [[nodiscard]] std::optional<IndexRange> parse_range(const std::string& text);
-// The same, or one number.
+// Parses the same, or a single number.
 [[nodiscard]] std::optional<IndexRange> parse_frames(const std::string& text);
 
 [[nodiscard]] CLI::Validator finite_number(double low);

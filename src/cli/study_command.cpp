@@ -36,7 +36,7 @@ bool is_mesh(const fs::path& file) {
   throw SceneError(std::move(errors));
 }
 
-// What both parts of the study take of a file.
+// The input of both parts of the study, from one file.
 struct Subject {
   StudyMesh mesh;
   StudyScene scene;
@@ -70,7 +70,7 @@ Subject load_study_scene(const fs::path& file) {
 }
 
 Subject load_study_mesh(const fs::path& file) {
-  // Else the file is taken to be faulty, not missing.
+  // Without this check a missing file would be reported as faulty.
   if (!std::ifstream(file)) throw FileError("cannot read " + file.string());
   Subject subject;
   try {
@@ -92,7 +92,7 @@ struct Subjects {
   std::vector<StudyScene> scenes;
 };
 
-// Errors of all files at once.
+// Loads all files and reports all their errors at once.
 Subjects load_all(const std::vector<fs::path>& files) {
   Subjects all;
   std::vector<LocatedError> errors;
@@ -104,7 +104,7 @@ Subjects load_all(const std::vector<fs::path>& files) {
       errors.insert(errors.end(), error.errors().begin(), error.errors().end());
       continue;
     }
-    // Rows are told apart by their names.
+    // Names identify rows, so they must differ.
     std::string name = file.stem().string();
     if (std::ranges::find(all.meshes, name, &StudyMesh::name) != all.meshes.end())
       name = fmt::format("{} ({})", name, all.meshes.size() + 1);

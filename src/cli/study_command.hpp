@@ -1,4 +1,4 @@
-// pahrender study FILE... -o DIR
+// The command `pahrender study FILE... -o DIR`.
 #pragma once
 
 #include <cstdint>
@@ -11,13 +11,13 @@ namespace pah::cli {
 
 struct StudyArguments {
   std::vector<std::filesystem::path> files;  // meshes and scenes
-  std::filesystem::path output;              // a folder, made if there is none
+  std::filesystem::path output;              // a folder, created if it is missing
   bool quick = false;
   std::uint64_t rays = 0;  // per area; 0 for the default
   std::uint64_t seed = 1;
 };
 
-// Throws SceneError for what is wrong with files, FileError for what cannot be read or written.
+// Throws SceneError for errors in files, FileError for files that cannot be read or written.
 ExitCode run_study(const StudyArguments& arguments);
 
 }  // namespace pah::cli

@@ -20,7 +20,7 @@ Cone cone_of(const Frustum& frustum) {
   return {frustum.axes[2], std::atan(glm::length(frustum.tan_half))};
 }
 
-// Around the rays of a bundle that meet in a point; none of those that go everywhere.
+// Returns a cone around the rays of a bundle that meet in a point; nothing if they go everywhere.
 std::optional<Cone> bundle_cone(const World& world, const FilmSettings& film,
                                 std::uint32_t bundle) {
   if (bundle != camera_bundle) {
@@ -35,7 +35,7 @@ std::optional<Cone> bundle_cone(const World& world, const FilmSettings& film,
               std::atan(half_height * std::hypot(1.0, double(film.width) / film.height))};
 }
 
-// For certain: the cones are around more than there is.
+// Certain, because the cones hold more than the rays and the area.
 bool are_apart(const Cone& a, const Cone& b) {
   const double between =
       std::atan2(glm::length(glm::cross(a.axis, b.axis)), glm::dot(a.axis, b.axis));

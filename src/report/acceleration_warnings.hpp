@@ -1,4 +1,4 @@
-// Influence areas that were declared in vain, and memory that does not suffice.
+// Warnings of useless influence areas and of too little memory.
 #pragma once
 
 #include <pah/render/acceleration.hpp>
@@ -7,9 +7,9 @@
 
 namespace pah {
 
-// One sentence each, of declared areas that were built: no geometry in them, no rays of their
-// light, or a higher predicted cost than without; and of a BVH of the whole scene that takes more
-// memory than the scene allows.
+// Returns one sentence for each declared area that holds no geometry or no rays of its light, or
+// that is predicted to cost more than the global BVH; and one if the global BVH takes more memory
+// than the scene allows.
 [[nodiscard]] std::vector<std::string> warnings_of(const Acceleration& acceleration,
                                                    const World& world, const Scene& settings);
 

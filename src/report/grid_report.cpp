@@ -15,7 +15,7 @@ OrderedJson part_of(const std::optional<Whole>& whole, Part Whole::*part) {
   return whole ? OrderedJson((*whole).*part) : OrderedJson();
 }
 
-// Nothing where no ray was traced.
+// Returns nothing if the pilot traced no ray.
 std::optional<GridPilot> traced_pilot(const GridPlan& plan) {
   return plan.pilot && plan.pilot->rays > 0 ? plan.pilot : std::nullopt;
 }
@@ -75,7 +75,7 @@ std::string line(std::string_view name, const std::string& value) {
 
 std::string seconds(double value) { return fmt::format("{:.3g} s", value); }
 
-// Of one thread.
+// The time of one thread.
 std::string nanoseconds(double value) { return fmt::format("{:.1f} ns", 1e9 * value); }
 
 template <typename Format>

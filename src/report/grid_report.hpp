@@ -1,4 +1,4 @@
-// What became of the grids that lights may have, for people and for tools.
+// Reports on light grids, for people and for tools.
 #pragma once
 
 #include <cstdint>
@@ -13,22 +13,22 @@
 
 namespace pah {
 
-// The grid of a light that shadow rays share a point or a direction of.
+// The grid of a light whose shadow rays share a point or a direction.
 struct GridReport {
   std::string light;
   GridPlan plan;
-  // Of those that were built.
+  // Set if the grid was built.
   std::optional<double> build_seconds{};
   std::optional<std::uint64_t> bytes{};
-  std::optional<GridLists> lists{};  // where the accelerator tells
+  std::optional<GridLists> lists{};  // if the accelerator counts them
 };
 
 [[nodiscard]] std::vector<GridReport> report_grids(const Acceleration& acceleration,
                                                    const World& world);
 
-// One object a grid; a value that is not known is null.
+// Returns one object for each grid; unknown values are null.
 [[nodiscard]] OrderedJson grids_json(const std::vector<GridReport>& grids);
-// Some lines of what is known.
+// Returns some lines with the known values.
 [[nodiscard]] std::string grid_text(const GridReport& grid);
 
 }  // namespace pah

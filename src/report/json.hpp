@@ -1,4 +1,4 @@
-// JSON to be written: objects keep the order of their members.
+// JSON output: objects keep the order of their members.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -14,7 +14,7 @@ template <typename Value>
   return value ? OrderedJson(*value) : OrderedJson();
 }
 
-// Indented; bytes that are not UTF-8 are replaced.
+// Returns indented text; replaces bytes that are not UTF-8.
 [[nodiscard]] inline std::string text_of(const OrderedJson& json) {
   return json.dump(2, ' ', false, OrderedJson::error_handler_t::replace);
 }

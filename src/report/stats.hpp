@@ -1,4 +1,4 @@
-// What --stats writes: the contract for tools.
+// The output of --stats, a contract for tools.
 #pragma once
 
 #include <cstdint>
@@ -13,24 +13,24 @@
 
 namespace pah {
 
-// An influence area, and what became of it.
+// An influence area and its costs.
 struct AreaReport {
   std::string name, type, light;
   std::uint64_t triangles = 0;  // in its BVH
   bool built = false;
-  std::string reason;  // why it was built, or was not
-  // Per ray, by the cost model of build_config.hpp; null in the JSON where nothing was built, or
+  std::string reason;  // for building it or not
+  // Costs per ray, by the cost model of build_config.hpp; null in the JSON if nothing was built or
   // measured.
   std::optional<double> predicted_cost, measured_cost;      // in its BVH
   std::optional<double> global_cost, measured_global_cost;  // in that of the whole scene
   std::optional<std::uint64_t> rays;                        // answered by the area alone
-  std::optional<std::uint64_t> asked_rays;                  // that measured_cost is of
-  std::optional<std::uint64_t> sampled_rays;  // of them, that measured_global_cost is of
+  std::optional<std::uint64_t> asked_rays;                  // the basis of measured_cost
+  std::optional<std::uint64_t> sampled_rays;  // of them, the basis of measured_global_cost
 };
 
 struct RenderReport {
   std::string version;
-  std::string scene;  // as it was named
+  std::string scene;  // the name on the command line
   int width = 0, height = 0;
   int samples = 0;          // per pixel, finished by every pixel
   double mean_samples = 0;  // per pixel
@@ -50,10 +50,10 @@ struct RenderReport {
   int warnings = 0;
 };
 
-// After a render that counted its traversal.
+// Reports on the areas after a render that counted its traversal.
 [[nodiscard]] std::vector<AreaReport> report_areas(const Acceleration& acceleration);
 
-// The most memory that this process has held, in bytes.
+// Returns the peak memory of this process, in bytes.
 [[nodiscard]] std::uint64_t peak_memory_bytes();
 
 [[nodiscard]] std::string stats_json(const RenderReport& report);

@@ -122,7 +122,7 @@ class Spacing {
   std::unordered_multimap<Cell, DVec3, Hash> points_;
 };
 
-struct SurfacePoint {
+struct ScatterPoint {
   DVec3 position;
   DVec3 normal;
 };
@@ -144,7 +144,7 @@ std::vector<glm::dmat4x3> scatter_points(const ScatterOptions& options, double e
   Spacing spacing(options.min_distance, extent);
   std::vector<glm::dmat4x3> copies;
   for (std::uint64_t i = 0; i < candidates && copies.size() < options.count; ++i) {
-    const SurfacePoint point = sample(i);
+    const ScatterPoint point = sample(i);
     if (spaced && !spacing.accept(point.position)) continue;
     glm::dmat4x3 copy = translation(point.position);
     if (options.align) copy = compose(copy, rotation_to(point.normal));
@@ -186,7 +186,7 @@ std::vector<glm::dmat4x3> scatter(const DVec2& size, const ScatterOptions& optio
   require(size.x >= 0 && size.y >= 0 && std::isfinite(size.x) && std::isfinite(size.y),
           "size must be two lengths >= 0");
   return scatter_points(options, std::max(size.x, size.y), [&](std::uint64_t i) {
-    return SurfacePoint{{(random_number(options.seed, i, draw_u) - 0.5) * size.x, 0,
+    return ScatterPoint{{(random_number(options.seed, i, draw_u) - 0.5) * size.x, 0,
                          (random_number(options.seed, i, draw_v) - 0.5) * size.y},
                         {0, 1, 0}};
   });
@@ -228,7 +228,7 @@ std::vector<glm::dmat4x3> scatter(const Mesh& mesh, const glm::dmat4x3& world_fr
         const double v = root * random_number(options.seed, i, draw_v);
         const DVec3 normal = scaled_normal(a, b, c);
         const double length = glm::length(normal);
-        return SurfacePoint{(1 - root) * a + (root - v) * b + v * c,
+        return ScatterPoint{(1 - root) * a + (root - v) * b + v * c,
                             length > 0 ? side * normal / length : DVec3{0, 1, 0}};
       });
 }

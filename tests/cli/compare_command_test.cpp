@@ -25,7 +25,7 @@ void write_picture(const std::string& name, float red) {
 
 }  // namespace
 
-TEST_CASE("compare prints what differs") {
+TEST_CASE("Compare prints what differs") {
   const CurrentTemporaryFolder folder;
   write_picture("a.exr", 0.5F);
   write_picture("b.exr", 0.25F);
@@ -43,7 +43,7 @@ TEST_CASE("compare prints what differs") {
   CHECK(difference["relmse"].get<double>() == Approx(square / (0.25 * 0.25 + 0.01)));
 }
 
-TEST_CASE("compare fails beyond the threshold only") {
+TEST_CASE("Compare fails beyond the threshold only") {
   const CurrentTemporaryFolder folder;
   write_picture("a.exr", 0.5F);
   write_picture("b.exr", 0.25F);
@@ -54,7 +54,7 @@ TEST_CASE("compare fails beyond the threshold only") {
   CHECK(run({"compare", "nan.exr", "b.exr", "--threshold", "100"}).exit_code == 1);
 }
 
-TEST_CASE("compare says what it cannot compare") {
+TEST_CASE("Compare names pictures that it cannot compare") {
   const CurrentTemporaryFolder folder;
   write_picture("a.exr", 0.5F);
   pah::Image small;

@@ -9,7 +9,7 @@
 using namespace pah::test;
 using pah::CurrentTemporaryFolder;
 
-TEST_CASE("inspect reports, and writes what it is asked for") {
+TEST_CASE("Inspect reports, and writes what it is asked for") {
   const CurrentTemporaryFolder folder;
   write_file("scene.yaml", small_scene);
   const Outcome outcome = run({"inspect", "scene.yaml", "--width", "40", "-D", "film.width=64",
@@ -56,7 +56,7 @@ TEST_CASE("inspect reports, and writes what it is asked for") {
   CHECK(pah::read_image("overlay.png").width == 40);
 }
 
-TEST_CASE("inspect tells of the local BVHs that a render has") {
+TEST_CASE("Inspect reports the local BVHs of a render") {
   const CurrentTemporaryFolder folder;
   write_file("scene.yaml", std::string(small_scene) +
                                "influence_areas:\n"
@@ -77,7 +77,7 @@ TEST_CASE("inspect tells of the local BVHs that a render has") {
   CHECK(outcome.out.find("BVH bulb") != std::string::npos);
 }
 
-TEST_CASE("inspect tells which lights have grids, and why") {
+TEST_CASE("Inspect reports which lights have grids, and why") {
   const CurrentTemporaryFolder folder;
   const std::string ball =
       "camera: {position: [0, 1, 3], look_at: [0, 0, 0]}\n"
@@ -124,7 +124,7 @@ TEST_CASE("inspect tells which lights have grids, and why") {
                  "warning: the BVH of the whole scene takes"));
 }
 
-TEST_CASE("inspect takes scenes of nothing") {
+TEST_CASE("Inspect accepts empty scenes") {
   const CurrentTemporaryFolder folder;
   write_file("scene.yaml", "film: {width: 8, height: 6}\n");
   const Outcome outcome =
@@ -134,7 +134,7 @@ TEST_CASE("inspect takes scenes of nothing") {
   CHECK(outcome.out.find("0 triangles") != std::string::npos);
 }
 
-TEST_CASE("inspect ends as it should where it cannot") {
+TEST_CASE("Inspect reports wrong usage, scene errors and missing files") {
   const CurrentTemporaryFolder folder;
   write_file("scene.yaml", small_scene);
   write_file("bad.yaml", "film: {width: 0}\n");
@@ -168,7 +168,7 @@ TEST_CASE("inspect ends as it should where it cannot") {
   }
 }
 
-TEST_CASE("inspect tells of areas that a render does not build if asked to") {
+TEST_CASE("Inspect reports derived areas on request") {
   const CurrentTemporaryFolder folder;
   write_file("scene.yaml", small_scene);
   const Outcome outcome = run({"inspect", "scene.yaml", "--all-areas", "--json", "r.json"});
@@ -188,7 +188,7 @@ TEST_CASE("inspect tells of areas that a render does not build if asked to") {
   CHECK(contains(outcome.out, "by the rays of the area"));
 }
 
-TEST_CASE("inspect names what replaced its former outputs") {
+TEST_CASE("Inspect names what replaced its former outputs") {
   const CurrentTemporaryFolder folder;
   write_file("scene.yaml", small_scene);
   CHECK(contains(run({"inspect", "scene.yaml", "--csv", "r.csv"}).err, "with --json"));

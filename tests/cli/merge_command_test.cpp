@@ -50,7 +50,7 @@ bool nearly_same_layers(const std::string& a, const std::string& b) {
 
 }  // namespace
 
-TEST_CASE("parts, in some splits and orders, give the picture of the whole") {
+TEST_CASE("Parts in several splits and orders give the picture of the whole") {
   const CurrentTemporaryFolder folder;
   write_file("scene.yaml", small_scene);
   const Words layers{"-D", "film.channels=[albedo,normal,depth,variance]"};
@@ -73,7 +73,7 @@ TEST_CASE("parts, in some splits and orders, give the picture of the whole") {
   }
 }
 
-TEST_CASE("parts are merged in steps, and to any format") {
+TEST_CASE("Parts are merged in steps, and to any format") {
   const CurrentTemporaryFolder folder;
   write_file("scene.yaml", small_scene);
   render_part("a.film", "0:3");
@@ -88,14 +88,14 @@ TEST_CASE("parts are merged in steps, and to any format") {
   CHECK(same_picture("bright.png", "whole.png"));
 }
 
-TEST_CASE("a film file has all samples unless told otherwise") {
+TEST_CASE("A film file has all samples by default") {
   const CurrentTemporaryFolder folder;
   write_file("scene.yaml", small_scene);
   succeed({"scene.yaml", "-o", "all.film"});
   CHECK(pah::read_film("all.film").samples == pah::FilmSamples{0, 4, 0, {}});
 }
 
-TEST_CASE("parts that overlap, are missing or of other renders are named") {
+TEST_CASE("Parts that overlap, are missing or of other renders are named") {
   const CurrentTemporaryFolder folder;
   write_file("scene.yaml", small_scene);
   render_part("a.film", "0:4");
@@ -120,7 +120,7 @@ TEST_CASE("parts that overlap, are missing or of other renders are named") {
   check_refused({"a.film", "b.film"}, "b.film was stopped in the middle of a pass");
 }
 
-TEST_CASE("parts by crops, and by samples besides, give the picture of the whole") {
+TEST_CASE("Parts by crops and samples give the picture of the whole") {
   const CurrentTemporaryFolder folder;
   write_file("scene.yaml", small_scene);
   const Words layers{"-D", "film.channels=[albedo,normal,depth]"};

@@ -14,11 +14,11 @@ using pah::CurrentTemporaryFolder;
 
 namespace fs = std::filesystem;
 
-TEST_CASE("the program starts without OpenImageIO") {
+TEST_CASE("The program starts without OpenImageIO") {
   CHECK_FALSE(contains(read_file(pah::test::program()), "libOpenImageIO"));
 }
 
-TEST_CASE("without its module the program says so rather than render") {
+TEST_CASE("Without its picture module the program reports an error instead of rendering") {
   const CurrentTemporaryFolder folder;
   fs::copy_file(pah::test::program(), "pahrender");
   write_file("scene.yaml", small_scene);

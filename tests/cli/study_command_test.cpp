@@ -15,7 +15,7 @@ const std::string knot = pah::test::source_folder() / "scenes" / "meshes" / "kno
 
 }  // namespace
 
-TEST_CASE("study writes its tables and its report") {
+TEST_CASE("Study writes its tables and its report") {
   const CurrentTemporaryFolder folder;
   write_file("small.yaml", small_scene);
   const Outcome outcome =
@@ -36,7 +36,7 @@ TEST_CASE("study writes its tables and its report") {
   CHECK((outcome.err.find("plots skipped") == std::string::npos) == plotted);
 }
 
-TEST_CASE("study says what it cannot study") {
+TEST_CASE("Study names files that it cannot study") {
   const CurrentTemporaryFolder folder;
   write_file("bad.obj", "v 0 0 0\nf 1 2 3\n");
   write_file("bad.yaml", "camera: 7\n");

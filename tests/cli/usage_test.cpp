@@ -28,7 +28,7 @@ void check_failure(const Words& arguments, int exit_code, const std::string& mes
 
 }  // namespace
 
-TEST_CASE("help and version go to stdout") {
+TEST_CASE("Help and version go to stdout") {
   const CurrentTemporaryFolder folder;
   for (const char* option : {"--help", "-h"}) {
     const Outcome help = run({option});
@@ -42,7 +42,7 @@ TEST_CASE("help and version go to stdout") {
   CHECK(version.out.starts_with("pahrender "));
 }
 
-TEST_CASE("wrong usage exits with 2 and says what is wrong") {
+TEST_CASE("Wrong usage exits with 2 and says what is wrong") {
   const CurrentTemporaryFolder folder;
   write_file("scene.yaml", small_scene);
   check_failure({}, 2, "scene");
@@ -92,7 +92,7 @@ TEST_CASE("wrong usage exits with 2 and says what is wrong") {
   check_failure({"--spp", "4", "compare", "a.png", "b.png"}, 2, "--spp");
 }
 
-TEST_CASE("scenes that cannot be read exit with 4") {
+TEST_CASE("Scenes that cannot be read exit with 4") {
   const CurrentTemporaryFolder folder;
   std::filesystem::create_directory("folder");
   check_failure({"missing.yaml"}, 4, "missing.yaml");
@@ -100,7 +100,7 @@ TEST_CASE("scenes that cannot be read exit with 4") {
   check_failure({"missing.yaml", "--check"}, 4, "missing.yaml");
 }
 
-TEST_CASE("places that cannot be written are found before the scene is even read") {
+TEST_CASE("Outputs that cannot be written are found before the scene is read") {
   const CurrentTemporaryFolder folder;
   std::filesystem::create_directory("folder.png");
   write_file("file", "");
@@ -110,7 +110,7 @@ TEST_CASE("places that cannot be written are found before the scene is even read
     check_failure({"missing.yaml", "-o", "out.png", "--stats", stats}, 4, stats);
 }
 
-TEST_CASE("all errors of a scene are reported, each with its place") {
+TEST_CASE("All errors of a scene are reported, each with its place") {
   const CurrentTemporaryFolder folder;
   write_file("scene.yaml",
              "film: {width: 0}\n"
@@ -125,14 +125,14 @@ TEST_CASE("all errors of a scene are reported, each with its place") {
   }
 }
 
-TEST_CASE("a wrong override is an error of the scene") {
+TEST_CASE("A wrong override is an error of the scene") {
   const CurrentTemporaryFolder folder;
   write_file("scene.yaml", small_scene);
   check_failure({"scene.yaml", "-D", "render.sampels=4"}, 3, "sampels");
   check_failure({"scene.yaml", "-D", "film.width=-3"}, 3, "width");
 }
 
-TEST_CASE("a picture that ends early is an error of the scene, with and without --check") {
+TEST_CASE("A picture that ends early is an error of the scene, with and without --check") {
   const CurrentTemporaryFolder folder;
   write_file("sky.tga", pah::test::tga(4, 4, "too few"));
   write_file("scene.yaml", "lights: [{type: environment, image: sky.tga}]\n");
@@ -140,7 +140,7 @@ TEST_CASE("a picture that ends early is an error of the scene, with and without 
   check_failure({"scene.yaml", "--check"}, 3, "scene.yaml:1:37: error: cannot read image");
 }
 
-TEST_CASE("a picture with infinite values is warned of, unless --quiet") {
+TEST_CASE("A picture with infinite values causes a warning, unless --quiet") {
   const CurrentTemporaryFolder folder;
   write_file("sky.hdr", "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 1\n\xFF\xFF\xFF\xFF");
   write_file("scene.yaml", "lights: [{type: environment, image: sky.hdr}]\n");
@@ -150,7 +150,7 @@ TEST_CASE("a picture with infinite values is warned of, unless --quiet") {
   CHECK(run({"scene.yaml", "--check", "--quiet"}).err.empty());
 }
 
-TEST_CASE("switch --check loads and writes nothing") {
+TEST_CASE("Option --check loads and writes nothing") {
   const CurrentTemporaryFolder folder;
   write_file("scene.yaml", small_scene);
   const Outcome outcome = run({"scene.yaml", "--check", "-o", "out.png", "--stats", "stats.json"});
@@ -164,7 +164,7 @@ TEST_CASE("switch --check loads and writes nothing") {
   CHECK(quiet.err.empty());
 }
 
-TEST_CASE("a stderr that is closed or full changes no exit code and no picture") {
+TEST_CASE("A closed or full stderr changes no exit code and no picture") {
   const CurrentTemporaryFolder folder;
   write_file("scene.yaml", small_scene);
   write_file("bad.yaml", "film: [");
@@ -178,7 +178,7 @@ TEST_CASE("a stderr that is closed or full changes no exit code and no picture")
   }
 }
 
-TEST_CASE("outputs that would harm one another or a device are refused") {
+TEST_CASE("Outputs that would overwrite one another or a device are refused") {
   const CurrentTemporaryFolder folder;
   write_file("scene.yaml", small_scene);
   check_failure({"scene.yaml", "-o", "a.png", "--stats", "./a.png"}, 2, "name the same file");
@@ -210,7 +210,7 @@ Outcome run_within(rlim_t bytes, const Words& arguments) {
 
 }  // namespace
 
-TEST_CASE("a film that memory has no room for is refused in plain words") {
+TEST_CASE("A film that exceeds the memory is refused with a plain message") {
   const CurrentTemporaryFolder folder;
   write_file("scene.yaml", small_scene);
   const auto check_needed = [](const char* output, const char* needed) {
@@ -226,7 +226,7 @@ TEST_CASE("a film that memory has no room for is refused in plain words") {
   check_needed("a.png", "10.7");  // has no room for layers
 }
 
-TEST_CASE("threads that memory has no room for end the program, and do not abort it") {
+TEST_CASE("Too many threads for the memory end the program without an abort") {
   const CurrentTemporaryFolder folder;
   write_file("scene.yaml", small_scene);
   const Outcome outcome = run_within(

@@ -30,7 +30,7 @@ int warnings_in(const char* file) {
 
 }  // namespace
 
-TEST_CASE("warnings are counted, and are errors with --strict") {
+TEST_CASE("Warnings are counted, and are errors with --strict") {
   const CurrentTemporaryFolder folder;
   write_file("dark.yaml", "film: {width: 4, height: 4}\nmeshes: [{shape: box}]\n");
   const Outcome lenient = run({"dark.yaml", "-o", "a.exr", "--stats", "a.json"});
@@ -49,7 +49,7 @@ TEST_CASE("warnings are counted, and are errors with --strict") {
   }
 }
 
-TEST_CASE("without warnings --strict changes nothing") {
+TEST_CASE("Without warnings --strict changes nothing") {
   const CurrentTemporaryFolder folder;
   write_file("lit.yaml", lit_floor(bulb));
   const Outcome strict = run({"lit.yaml", "-o", "a.png", "--strict", "--stats", "a.json"});
@@ -58,7 +58,7 @@ TEST_CASE("without warnings --strict changes nothing") {
   CHECK(warnings_in("a.json") == 0);
 }
 
-TEST_CASE("a picture that is too bright for its format says which exposure would fit") {
+TEST_CASE("A picture that is too bright for its format says which exposure would fit") {
   const CurrentTemporaryFolder folder;
   write_file("bright.yaml", lit_floor("type: point, intensity: 100"));
   const Outcome bright = run({"bright.yaml", "-o", "a.png"});
@@ -75,7 +75,7 @@ TEST_CASE("a picture that is too bright for its format says which exposure would
   CHECK(fs::exists("b.png"));  // it cost time to make
 }
 
-TEST_CASE("influence areas that were declared in vain are warned of") {
+TEST_CASE("Useless declared influence areas cause warnings") {
   const CurrentTemporaryFolder folder;
   const auto error_of = [](const std::string& light, const std::string& area) {
     write_file("area.yaml", lit_floor(light, "influence_areas: [" + area + "]\n"));

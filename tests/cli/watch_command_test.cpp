@@ -48,7 +48,7 @@ int end(Program& program) {
 
 }  // namespace
 
-TEST_CASE("watch renders anew when the scene or a file that it names changes") {
+TEST_CASE("Watch renders again when the scene or a file that it names changes") {
   const CurrentTemporaryFolder folder;
   write_file("mesh.obj", triangle);
   write_scene(10);
@@ -63,7 +63,7 @@ TEST_CASE("watch renders anew when the scene or a file that it names changes") {
   CHECK(files() == Words{"mesh.obj", "out.exr", "scene.yaml"});
 }
 
-TEST_CASE("watch stops a render of what has changed, and does not save it") {
+TEST_CASE("Watch stops an outdated render without saving it") {
   const CurrentTemporaryFolder folder;
   write_file("mesh.obj", triangle);
   write_scene(10, 1'000'000'000);
@@ -82,7 +82,7 @@ TEST_CASE("watch stops a render of what has changed, and does not save it") {
   }
 }
 
-TEST_CASE("watch says errors and waits until they are mended") {
+TEST_CASE("Watch prints errors and waits until they are fixed") {
   const CurrentTemporaryFolder folder;
   write_scene(10);
   Program program({"watch", "scene.yaml", "-o", "out.exr"}, ErrorStream::terminal);
@@ -96,7 +96,7 @@ TEST_CASE("watch says errors and waits until they are mended") {
   CHECK(end(program) == 130);
 }
 
-TEST_CASE("watch ends at once where no change of the scene would help") {
+TEST_CASE("Watch ends at once if no change of the scene would help") {
   const CurrentTemporaryFolder folder;
   CHECK(run({"watch"}).exit_code == 2);
   CHECK(run({"--spp", "1", "watch", "scene.yaml"}).exit_code == 2);

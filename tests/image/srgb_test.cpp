@@ -4,7 +4,7 @@
 
 using namespace pah;
 
-TEST_CASE("sRGB and linear light: known values") {
+TEST_CASE("sRGB and linear light convert by known values") {
   CHECK(linear_from_srgb(0.5F) == Approx(0.21404114));
   CHECK(linear_from_srgb(0.5) == Approx(0.21404114));
   CHECK(srgb_from_linear(0.21404114) == Approx(0.5));

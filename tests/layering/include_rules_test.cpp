@@ -34,7 +34,7 @@ std::vector<std::string> faults_of(const std::string& file, const std::string& t
 
 }  // namespace
 
-TEST_CASE("every module includes only what stands to its left") {
+TEST_CASE("Every module includes only modules below it") {
   const fs::path root = pah::test::source_folder();
   REQUIRE(fs::exists(root / "src" / "cli" / "main.cpp"));
   std::string all;
@@ -43,7 +43,7 @@ TEST_CASE("every module includes only what stands to its left") {
   CHECK(all.empty());
 }
 
-TEST_CASE("allowed includes pass") {
+TEST_CASE("Allowed includes pass") {
   const Tree tree({
       {"include/pah/bvh/bvh.hpp", "#include <pah/geometry/aabb.hpp>\n#include <glm/vec3.hpp>\n"},
       {"include/pah/render/session.hpp", "#include <pah/render/film.hpp>\n"},
@@ -98,7 +98,7 @@ void must_be_found(const std::vector<PlantedFault>& plants) {
 
 }  // namespace
 
-TEST_CASE("planted faults are found, with their place") {
+TEST_CASE("Planted faults are found, with their place") {
   using Faults = std::vector<std::string>;
   SECTION("the line of an include after others") {
     CHECK(faults_of("src/bvh/a.cpp", "// why\n\n  #  include <pah/accel/accelerator.hpp>\n") ==

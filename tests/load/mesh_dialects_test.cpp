@@ -266,7 +266,7 @@ TEST_CASE("STL dialects") {
   }
 }
 
-TEST_CASE("what a mesh file has that cannot be shown is told") {
+TEST_CASE("Unsupported features of a mesh file are named") {
   const TemporaryFolder folder;
   const auto warnings = [&](const std::string& extension, const std::string& bytes) {
     const auto file = folder / ("a." + extension);
@@ -293,7 +293,7 @@ TEST_CASE("what a mesh file has that cannot be shown is told") {
         "3 bytes exceed what the header declares, and are left out\n");
 }
 
-TEST_CASE("a mesh file in which the counts do not agree is an error") {
+TEST_CASE("A mesh file in which the counts do not agree is an error") {
   const TemporaryFolder folder;
   const std::string head =
       "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
@@ -317,7 +317,7 @@ TEST_CASE("a mesh file in which the counts do not agree is an error") {
       contains_text("two elements 'vertex'"));
 }
 
-TEST_CASE("mutated mesh files are meshes or errors") {
+TEST_CASE("Mutated mesh files are meshes or errors") {
   const TemporaryFolder folder;
   const std::vector<std::pair<std::string, std::string>> seeds{
       {"obj",

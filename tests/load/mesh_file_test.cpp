@@ -76,7 +76,7 @@ std::string ascii_ply(const std::string& last_vertex = "0 0 1",
 
 }  // namespace
 
-TEST_CASE("a tetrahedron is one in every format") {
+TEST_CASE("A tetrahedron is the same in every format") {
   const TemporaryFolder folder;
   const std::string facet =
       "facet normal 0 0 0\nouter loop\nvertex A\nvertex B\nvertex C\nendloop\nendfacet\n";
@@ -138,7 +138,7 @@ TEST_CASE("OBJ: polygons, seams, normals, negative indices, joined lines, lines 
       if (smooth.positions[i] == smooth.positions[j]) CHECK(smooth.normals[i] == smooth.normals[j]);
 }
 
-TEST_CASE("polygons are cut into triangles of the same area and winding") {
+TEST_CASE("Polygons are cut into triangles of the same area and winding") {
   const TemporaryFolder folder;
   // A comb: many reflex corners, seen from each of three sides, in both windings.
   std::vector<DVec2> comb{{0, 0}};
@@ -270,7 +270,7 @@ TEST_CASE("PLY and STL: what is broken is said") {
                 std::string());
 }
 
-TEST_CASE("only known formats are read, by their names") {
+TEST_CASE("Only known formats are read, by their names") {
   const TemporaryFolder folder;
   CHECK(has(error_of(write(folder, "a.fbx", "")).what(),
             "unknown mesh format '.fbx'; available are .obj, .ply"));
@@ -335,7 +335,7 @@ TEST_CASE("OBJ: materials that begin with no name") {
   }
 }
 
-TEST_CASE("no file outside of the folder is opened") {
+TEST_CASE("No file outside of the folder is opened") {
   const TemporaryFolder folder;
   std::filesystem::create_directory(folder / "scene");
   write(folder, "out.mtl", "newmtl red\nKd 1 0 0\n");

@@ -7,7 +7,7 @@
 
 using namespace pah;
 
-TEST_CASE("a BVH that takes more memory than the scene allows is warned of") {
+TEST_CASE("A BVH that takes more memory than the scene allows causes a warning") {
   Scene scene;
   scene.materials.push_back({"gray", DiffuseMaterial{}});
   scene.meshes = {make_mesh(SphereShape{})};
@@ -26,7 +26,7 @@ TEST_CASE("a BVH that takes more memory than the scene allows is warned of") {
             ", more than the 1.50 kB of 'memory' of acceleration; it is built anyway"});
 }
 
-TEST_CASE("bytes are told in the unit that fits") {
+TEST_CASE("Bytes are formatted in a fitting unit") {
   CHECK(format_bytes(0) == "0 bytes");
   CHECK(format_bytes(999) == "999 bytes");
   CHECK(format_bytes(1000) == "1.00 kB");

@@ -23,7 +23,7 @@ std::vector<AreaRayCosts> costs_of(const Scene& scene) {
 
 }  // namespace
 
-TEST_CASE("rays that an area answers cost what its BVH costs") {
+TEST_CASE("Rays that an area answers cost what its BVH costs") {
   Scene scene = test::floor_below();
   scene.lights.push_back({"bulb", PointLight{DVec3(0, 3, 0), Vec3(10)}});
   const std::vector<AreaRayCosts> costs = costs_of(scene);
@@ -40,7 +40,7 @@ TEST_CASE("rays that an area answers cost what its BVH costs") {
   }
 }
 
-TEST_CASE("rays that an area can't answer cost what both BVHs cost") {
+TEST_CASE("Rays that an area cannot answer cost what both BVHs cost") {
   Scene scene = test::floor_below();
   scene.lights.push_back({"sun", DirectionalLight{{0, -1, 0}, Vec3(1), 0}});
   // Where the area does not reach.

@@ -20,7 +20,7 @@ GridReport built_grid() {
 
 }  // namespace
 
-TEST_CASE("the text of a grid says what was predicted and measured") {
+TEST_CASE("The text of a grid says what was predicted and measured") {
   GridReport grid = built_grid();
   CHECK(grid_text(grid) == R"(
 Grid of light bulb: built
@@ -39,7 +39,7 @@ Grid of light bulb: built
                                             "  memory "));
 }
 
-TEST_CASE("the text of a grid that was not built says why, and what is known") {
+TEST_CASE("The text of a grid that was not built says why, and what is known") {
   GridReport grid{.light = "sun", .plan = {}};
   grid.plan.reason = "no shadow rays are sent";
   CHECK(grid_text(grid) ==

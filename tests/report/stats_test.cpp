@@ -62,7 +62,7 @@ constexpr GridPilot pilot{
 
 }  // namespace
 
-TEST_CASE("of a light without a pilot nothing but the reason is known") {
+TEST_CASE("For a light without a pilot only the reason is known") {
   GridReport grid{.light = "sun", .plan = {}};
   grid.plan.reason = "no shadow rays are sent";
   const Json json = grid_of(grid);
@@ -72,7 +72,7 @@ TEST_CASE("of a light without a pilot nothing but the reason is known") {
   CHECK(unknown_of(grid) == keys_from("expected_rays"));
 }
 
-TEST_CASE("of a light that no ray goes to, that is known, but no time") {
+TEST_CASE("For a light without rays the count is known, but no time") {
   GridReport grid{.light = "sun", .plan = plan_grid(0, PointBundle{}, {}, {.triangles = 9})};
   const Json json = grid_of(grid);
   CHECK(json["expected_rays"] == 0);
@@ -80,14 +80,14 @@ TEST_CASE("of a light that no ray goes to, that is known, but no time") {
   CHECK(unknown_of(grid) == keys_from("occluded_share"));
 }
 
-TEST_CASE("of a grid that was planned only, what was measured is not known") {
+TEST_CASE("The measured values of a grid that is only planned are unknown") {
   const GridPlan plan = plan_grid(0, PointBundle{}, pilot, {.bvh_build_seconds = 9});
   CHECK(unknown_of({.light = "sun", .plan = plan}) ==
         std::vector<std::string>{"measured_seconds_per_ray", "build_seconds", "saved_seconds",
                                  "bytes", "cells", "empty_cells", "entries", "longest_list"});
 }
 
-TEST_CASE("of a grid that was built everything is known") {
+TEST_CASE("All values of a built grid are known") {
   GridPlan plan = plan_grid(0, PointBundle{}, pilot, {.triangles = 9, .bvh_build_seconds = 0.1});
   measure_grid(plan, 5e-7, 0.5, 900, {});
   const GridReport grid{.light = "sun",
@@ -116,7 +116,7 @@ TEST_CASE("of a grid that was built everything is known") {
   CHECK(json["longest_list"] == 7);
 }
 
-TEST_CASE("grids are reported by their lights' names, built or not") {
+TEST_CASE("Grids are reported by their lights' names, built or not") {
   Scene scene;
   scene.materials.push_back({"gray", DiffuseMaterial{}});
   scene.meshes = {make_mesh(SphereShape{})};

@@ -27,7 +27,7 @@ bool is_all(const StructureMap& map, const Vec3& color) {
 
 }  // namespace
 
-TEST_CASE("without areas and grids the global BVH answers all shadow rays") {
+TEST_CASE("Without areas and grids the global BVH answers all shadow rays") {
   const StructureMap map = map_of(floor_under_bulb());
   CHECK(map.image.width == 16);
   CHECK(map.image.height == 16);
@@ -36,7 +36,7 @@ TEST_CASE("without areas and grids the global BVH answers all shadow rays") {
   CHECK(is_all(map, map.legend[0].color));
 }
 
-TEST_CASE("a declared area answers the shadow rays that start in it") {
+TEST_CASE("A declared area answers the shadow rays that start in it") {
   Scene scene = floor_under_bulb();
   PointAreaDeclaration area;
   area.light = "bulb";
@@ -51,7 +51,7 @@ TEST_CASE("a declared area answers the shadow rays that start in it") {
   CHECK(std::ranges::count(map.image.pixels, map.legend[1].color) > 4);
 }
 
-TEST_CASE("a grid answers the shadow rays of its light, others share the pixel") {
+TEST_CASE("A grid answers the shadow rays of its light, others share the pixel") {
   Scene scene = floor_under_bulb();
   const StructureMap alone = map_of(scene, "light");
   REQUIRE(alone.legend.size() == 2);
@@ -63,7 +63,7 @@ TEST_CASE("a grid answers the shadow rays of its light, others share the pixel")
   CHECK(is_all(both, (both.legend[0].color + both.legend[1].color) / 2.0F));
 }
 
-TEST_CASE("where there are no shadow rays it is black") {
+TEST_CASE("Pixels without shadow rays are black") {
   Scene scene = floor_under_bulb();
   SECTION("no surface") { scene.instances.clear(); }
   SECTION("no light") { scene.lights.clear(); }
@@ -71,7 +71,7 @@ TEST_CASE("where there are no shadow rays it is black") {
   CHECK(is_all(map_of(scene), Vec3(0)));
 }
 
-TEST_CASE("neighbors in the legend have different colors, however many there are") {
+TEST_CASE("Neighbors in the legend have different colors, however many there are") {
   Scene scene = floor_under_bulb();
   scene.influence_areas.declared.assign(12, PointAreaDeclaration{.light = "bulb"});
   const StructureMap map = map_of(scene);

@@ -68,7 +68,7 @@ const std::vector<DVec3> light_positions{{0, 0, 0},      {0.5, 0.3, -2},  {0, 5,
 
 }  // namespace
 
-TEST_CASE("a point light's frusta hold every segment that leads to it from the scene's box") {
+TEST_CASE("A point light's frusta hold every segment that leads to it from the scene's box") {
   std::mt19937 random(1);
   for (const DVec3& center : {DVec3(0), DVec3(1e6, -3e5, 7)}) {
     Scene scene = scene_about(center);
@@ -99,7 +99,7 @@ TEST_CASE("a point light's frusta hold every segment that leads to it from the s
   }
 }
 
-TEST_CASE("frusta in which there is nothing are not derived") {
+TEST_CASE("Empty frusta are not derived") {
   Scene scene = scene_about(DVec3(0));
   scene.lights.push_back({"middle", PointLight{DVec3(0), Vec3(1)}});
   scene.lights.push_back({"above", PointLight{DVec3(0, 50, 0), Vec3(1)}});
@@ -115,7 +115,7 @@ TEST_CASE("frusta in which there is nothing are not derived") {
   CHECK(of_bundle(areas, 2).empty());
 }
 
-TEST_CASE("a spot's frustum holds every segment that leads to it within its cone") {
+TEST_CASE("A spot's frustum holds every segment that leads to it within its cone") {
   std::mt19937 random(2);
   for (const double angle : {1.0, 11.0, 45.0, 79.0, 85.0, 90.0}) {
     CAPTURE(angle);
@@ -145,7 +145,7 @@ TEST_CASE("a spot's frustum holds every segment that leads to it within its cone
   }
 }
 
-TEST_CASE("a sun's box holds the scene, and none is derived for one with an angle") {
+TEST_CASE("A sun's box holds the scene, and none is derived for one with an angle") {
   for (const DVec3& direction : {DVec3(0, -1, 0), DVec3(-1, -2, -1), DVec3(5, 0, 0)}) {
     Scene scene = scene_about(DVec3(3, -5, 1e5));
     scene.lights.push_back({"sun", DirectionalLight{direction, Vec3(1), 0}});
@@ -163,7 +163,7 @@ TEST_CASE("a sun's box holds the scene, and none is derived for one with an angl
   }
 }
 
-TEST_CASE("the camera's area holds its rays to the end of the scene") {
+TEST_CASE("The camera's area holds its rays to the end of the scene") {
   Scene scene = scene_about(DVec3(-7, 100, 3));
   scene.film.width = 40;
   scene.film.height = 25;
@@ -201,7 +201,7 @@ TEST_CASE("the camera's area holds its rays to the end of the scene") {
   }
 }
 
-TEST_CASE("nothing is derived where rays have nothing in common, or there is nothing to hit") {
+TEST_CASE("Nothing is derived for rays without a common bundle, or without triangles") {
   Scene scene = scene_about(DVec3(0));
   scene.lights.push_back({"panel", AreaLight{}});
   scene.lights.push_back({"sky", EnvironmentLight{}});
@@ -217,7 +217,7 @@ TEST_CASE("nothing is derived where rays have nothing in common, or there is not
   CHECK(areas_in(scene).empty());
 }
 
-TEST_CASE("declared areas are moved along with the scene") {
+TEST_CASE("Declared areas are moved along with the scene") {
   std::vector<std::vector<SceneArea>> found;
   for (const DVec3& center : {DVec3(0), DVec3(1024, -512, 4096)}) {
     Scene scene = scene_about(center);
@@ -264,7 +264,7 @@ TEST_CASE("declared areas are moved along with the scene") {
   }
 }
 
-TEST_CASE("an area is declared for a light of its kind only") {
+TEST_CASE("An area is declared for a light of its kind only") {
   Scene scene = scene_about(DVec3(0));
   scene.lights.push_back({"lamp", PointLight{}});
   scene.lights.push_back({"sun", DirectionalLight{}});

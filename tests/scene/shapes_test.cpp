@@ -34,7 +34,7 @@ std::vector<Shape> every_shape() {
 
 }  // namespace
 
-TEST_CASE("shapes have sound indices, unit normals on the outside and texture coordinates") {
+TEST_CASE("Shapes have sound indices, unit normals on the outside and texture coordinates") {
   for (const Shape& shape : every_shape()) {
     const Mesh mesh = make_mesh(shape);
     CAPTURE(shape.index());
@@ -60,7 +60,7 @@ TEST_CASE("shapes have sound indices, unit normals on the outside and texture co
   }
 }
 
-TEST_CASE("closed shapes are closed to the last bit") {
+TEST_CASE("Closed shapes are closed to the last bit") {
   for (const int segments : {3, 4, 5, 31, 64, 129}) {
     CAPTURE(segments);
     CHECK(is_closed(make_mesh(SphereShape{0.7, segments, 2})));
@@ -75,7 +75,7 @@ TEST_CASE("closed shapes are closed to the last bit") {
   CHECK_FALSE(is_closed(make_mesh(RectangleShape{})));
 }
 
-TEST_CASE("areas and volumes are those of the inscribed polyhedra") {
+TEST_CASE("Areas and volumes are those of the inscribed polyhedra") {
   CHECK(area_of(make_mesh(RectangleShape{{2, 3}})) == Approx(6));
   CHECK(area_of(make_mesh(DiskShape{2, 7})) == Approx(4 * polygon_area(7)));
   CHECK(volume_of(make_mesh(BoxShape{{1, 2, 3}})) == Approx(6));
@@ -93,7 +93,7 @@ TEST_CASE("areas and volumes are those of the inscribed polyhedra") {
   CHECK(coarse / fine == Approx(4).epsilon(0.01));  // second order
 }
 
-TEST_CASE("a height field stands over its rectangle, first row at the far edge") {
+TEST_CASE("A height field stands over its rectangle, first row at the far edge") {
   HeightFieldShape shape = hill(3, 2);
   shape.heights = {0, 1, 2, 3, 4, 5};
   const Mesh mesh = make_mesh(shape);
@@ -108,7 +108,7 @@ TEST_CASE("a height field stands over its rectangle, first row at the far edge")
   for (const Vec3& n : plane.normals) CHECK(glm::distance(n, expected) < 1e-6F);
 }
 
-TEST_CASE("shapes refuse values out of range") {
+TEST_CASE("Shapes refuse values out of range") {
   CHECK_THROWS_AS(make_mesh(RectangleShape{{0, 1}}), std::invalid_argument);
   CHECK_THROWS_AS(make_mesh(DiskShape{NAN, 8}), std::invalid_argument);
   CHECK_THROWS_AS(make_mesh(BoxShape{{1, 1, -1}}), std::invalid_argument);

@@ -37,14 +37,14 @@ bool normals_agree(const World& world) {
 
 }  // namespace
 
-TEST_CASE("an empty scene is an empty world") {
+TEST_CASE("An empty scene is an empty world") {
   const World world = make_world(Scene{});
   CHECK(world.origin == DVec3(0));
   CHECK(world.triangles().size() == 0);
   CHECK(world.bounds.empty());
 }
 
-TEST_CASE("instances become consecutive triangles") {
+TEST_CASE("Instances become consecutive triangles") {
   Scene scene = scene_of(BoxShape{}, translation({-2, 0, 0}));
   scene.materials.emplace_back();
   scene.lights.push_back({"panel", AreaLight{}});
@@ -74,7 +74,7 @@ TEST_CASE("instances become consecutive triangles") {
   CHECK(world.bytes() >= world.positions.size() * 12 + world.indices.size() * 16);
 }
 
-TEST_CASE("mirrored instances keep their outside outside") {
+TEST_CASE("Mirrored instances keep their outside") {
   for (const DVec3& s : {DVec3{1, 1, 1}, DVec3{-1, 1, 1}, DVec3{2, -3, 0.1}, DVec3{-1, -1, -1},
                          DVec3{-1e-9, 1e-9, 1e-9}}) {
     const World world = make_world(scene_of(TorusShape{}, scaling(s)));
@@ -85,7 +85,7 @@ TEST_CASE("mirrored instances keep their outside outside") {
   }
 }
 
-TEST_CASE("normals go by the inverse transpose") {
+TEST_CASE("Normals go by the inverse transpose") {
   const World world = make_world(scene_of(SphereShape{}, scaling({1, 4, 1})));
   // On the ellipsoid x^2 + (y / 4)^2 + z^2 = r^2 the normal is along (x, y / 16, z).
   for (std::size_t i = 0; i < world.positions.size(); ++i) {
@@ -94,7 +94,7 @@ TEST_CASE("normals go by the inverse transpose") {
   }
 }
 
-TEST_CASE("a scene far away loses nothing") {
+TEST_CASE("A scene far away loses nothing") {
   Scene near = scene_of(SphereShape{}, scaling(DVec3{0.5}));
   Scene far = near;
   const DVec3 away{1e6, -1e6, 1048576.5};
@@ -123,7 +123,7 @@ TEST_CASE("a scene far away loses nothing") {
   CHECK(glm::distance(std::get<SpotLight>(b.lights[1].model).position, DVec3(0, 4, 0)) < 1e-9);
 }
 
-TEST_CASE("a scene scaled by a power of 2 is the same world, scaled") {
+TEST_CASE("A scene scaled by a power of 2 is the same world, scaled") {
   const glm::dmat4x3 odd{
       DVec3{0.3, 0.1, -0.7}, {-0.2, 1.1, 0.3}, {0.9, 0.4, -0.1}, {0.123, 4.56, -7.89}};
   const World world = make_world(scene_of(TorusShape{}, odd));
@@ -138,7 +138,7 @@ TEST_CASE("a scene scaled by a power of 2 is the same world, scaled") {
   }
 }
 
-TEST_CASE("unused vertices do not move the origin") {
+TEST_CASE("Unused vertices do not move the origin") {
   Scene scene = scene_of(BoxShape{});
   scene.meshes[0].normals.clear();
   scene.meshes[0].uvs.clear();
@@ -146,7 +146,7 @@ TEST_CASE("unused vertices do not move the origin") {
   CHECK(make_world(scene).origin == DVec3(0));
 }
 
-TEST_CASE("faults are named") {
+TEST_CASE("Faults are named") {
   const auto message = [](const Scene& scene) -> std::string {
     try {
       (void)make_world(scene);
@@ -179,7 +179,7 @@ TEST_CASE("faults are named") {
   CHECK(message(scene_of(BoxShape{}, scaling(DVec3{1e-40}))).empty());
 }
 
-TEST_CASE("a camera that is shut in without light is warned of") {
+TEST_CASE("A camera inside a closed mesh without light causes a warning") {
   const auto warnings = [](const Scene& scene) { return make_world(scene).warnings; };
   Scene scene = scene_of(BoxShape{}, translation({3, 0, 0}));
   PerspectiveCamera camera;
@@ -215,7 +215,7 @@ TEST_CASE("a camera that is shut in without light is warned of") {
   }
 }
 
-TEST_CASE("one distant object costs the others neither digits nor their place") {
+TEST_CASE("One distant object costs the others no precision") {
   Scene scene;
   PerspectiveCamera camera;
   camera.position = {0, 2, 6};
@@ -252,7 +252,7 @@ TEST_CASE("one distant object costs the others neither digits nor their place") 
   CHECK(make_world(scene).origin == DVec3(0));
 }
 
-TEST_CASE("of several faults the same is told every time") {
+TEST_CASE("The same one of several faults is reported every time") {
   Scene scene = scene_of(SphereShape{1, 200, 200});
   Mesh& mesh = scene.meshes[0];
   REQUIRE(mesh.positions.size() > 30'000);

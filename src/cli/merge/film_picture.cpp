@@ -24,7 +24,7 @@ WriteOptions write_options(const FilmOrigin& origin, int samples, const PictureF
   const FilmSettings& film = origin.film;
   WriteOptions options;
   options.exposure = film.exposure;
-  // Unless asked to, comparisons of pictures are not to meet the rounding to half floats.
+  // By default pictures are not rounded to half floats, so that comparisons do not meet that error.
   options.full_float = !format.half;
   options.png_bits = format.png_bits;
   options.metadata = {

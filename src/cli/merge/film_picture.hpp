@@ -1,4 +1,4 @@
-// What a picture file gets of a film.
+// Turns films into layers and metadata of picture files.
 #pragma once
 
 #include <pah/image/image_file.hpp>
@@ -7,7 +7,7 @@
 
 namespace pah::cli {
 
-// The picture, then what the film was asked to keep besides.
+// Returns the picture, then the further layers that the settings ask for.
 [[nodiscard]] std::vector<ImageLayer> layers_of(const Film& film, const FilmSettings& settings);
 
 struct PictureFormat {
@@ -15,16 +15,16 @@ struct PictureFormat {
   int png_bits = 8;
 };
 
-// How a film of so many samples is written, with where it comes from as metadata.
+// Returns the options for writing a film with `samples` per pixel; its origin becomes metadata.
 [[nodiscard]] WriteOptions write_options(const FilmOrigin& origin, int samples,
                                          const PictureFormat& format);
 
-// Whether the file is there, can be read to its end, and is what would be rendered. Of formats that
-// keep no metadata this is not known: false.
+// Returns whether the file exists, can be read to its end, and holds what would be rendered. For
+// formats without metadata the answer is false.
 [[nodiscard]] bool is_whole(const std::filesystem::path& file, const FilmOrigin& origin,
                             const FilmSamples& samples, const PictureFormat& format);
 
-// By its extension.
+// Decides by the extension.
 [[nodiscard]] bool is_film_file(const std::filesystem::path& file);
 
 // Throws FileError unless the picture or film can be written; leaves no trace.

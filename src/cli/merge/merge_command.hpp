@@ -1,4 +1,4 @@
-// pahrender merge PART... -o OUT
+// The command `pahrender merge PART... -o OUT`.
 #pragma once
 
 #include <filesystem>
@@ -12,7 +12,7 @@ namespace pah::cli {
 struct MergeArguments {
   std::vector<std::filesystem::path> parts;
   std::filesystem::path output;
-  std::optional<double> exposure;  // stops; none: as the parts say
+  std::optional<double> exposure;  // stops; by default that of the parts
 };
 
 // Throws FileError.

@@ -35,7 +35,7 @@ Part read_part(const fs::path& file) {
   return {file, std::move(film.origin), std::move(film.samples)};
 }
 
-// But for their crops.
+// Throws FileError unless the parts agree in everything but their crops.
 void check_origin(const Part& part, const Part& first) {
   FilmOrigin origin = part.origin;
   origin.film.crop = first.origin.film.crop;
@@ -56,7 +56,7 @@ void check_neighbors(const Part& part, const Part& next) {
 
 // Parts of the same pixels, in the order of their samples.
 using Group = std::vector<const Part*>;
-using Corners = std::tuple<int, int, int, int>;  // of a rectangle, to be in an order
+using Corners = std::tuple<int, int, int, int>;  // of a rectangle, as a sortable key
 
 std::vector<Group> grouped(const std::vector<Part>& parts) {
   std::map<Corners, Group> by_rect;
@@ -109,7 +109,7 @@ std::int64_t area_of(const PixelRect& rect) {
   return std::int64_t{rect.width()} * std::int64_t{rect.height()};
 }
 
-// Names the first pixels within `bounds` that no part has. Parts do not overlap.
+// Throws FileError with the first pixels within `bounds` that no part covers. Parts do not overlap.
 void check_covered(const std::vector<Group>& groups, const PixelRect& bounds) {
   std::int64_t covered = 0;
   std::set<int> columns, rows;

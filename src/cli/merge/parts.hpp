@@ -1,4 +1,4 @@
-// Film files that make up one picture: by samples, by crops, or both.
+// Film files that together make one picture: split by samples, by crops, or both.
 #pragma once
 
 #include <filesystem>
@@ -15,19 +15,19 @@ struct Part {
 
 struct Parts {
   std::vector<Part> parts;
-  PixelRect rect;        // of all together
+  PixelRect rect;        // around the pixels of all parts
   int from = 0, to = 0;  // the samples that every pixel has
 };
 
-// In no certain order; every pixel of `rect` is in parts that have each of its samples once. Only
-// one film is in memory at a time. Throws FileError, which names the parts that overlap, are
-// missing, or belong to another picture.
+// Reads and checks parts, in any order: together they must hold each sample of each pixel of `rect`
+// exactly once. Only one film is in memory at a time. Throws FileError, which names parts that
+// overlap, that are missing, or that belong to another picture.
 [[nodiscard]] Parts read_parts(const std::vector<std::filesystem::path>& files);
 
-// Throws FileError.
+// Adds the films of the parts. Throws FileError.
 [[nodiscard]] Film sum_of(const Parts& parts);
 
-// Throws FileError, which says how to render what is missing.
+// Throws FileError, which says how to render the missing samples.
 [[noreturn]] void fail_for_gap(int from, int to);
 
 }  // namespace pah::cli

@@ -1,6 +1,6 @@
-// The functions that need OpenImageIO. Debian's brings 250 libraries, which take longer to load
-// than many a scene to render: the program loads them when it first needs a picture, with the
-// module that holds these.
+// The functions that need OpenImageIO. Debian's package brings 250 libraries, which take longer to
+// load than many scenes take to render. So these functions are in a module that the program loads
+// when it first needs a picture.
 #pragma once
 
 #include <pah/image/image_file.hpp>
@@ -20,7 +20,7 @@ struct PictureFunctions {
   decltype(&pah::make_texture_images) make_texture_images;
 };
 
-// What the module defines.
+// The symbol that the module exports.
 inline constexpr const char* picture_functions_name = "pahrender_picture_functions";
 
 }  // namespace pah::cli

@@ -1,4 +1,4 @@
-// The module's side: the functions as the libraries define them.
+// The module's side: a table of the libraries' functions.
 #include "cli/pictures/functions.hpp"
 
 extern "C" const pah::cli::PictureFunctions pahrender_picture_functions{

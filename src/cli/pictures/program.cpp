@@ -1,5 +1,5 @@
-// The program's side. Its definitions come before those in the libraries, so that nothing of the
-// latter is linked.
+// The program's side. Its definitions precede those of the static libraries, so the linker takes
+// nothing from the files there that need OpenImageIO.
 #include <dlfcn.h>
 
 #include "cli/pictures/functions.hpp"
@@ -9,7 +9,7 @@ namespace pah {
 namespace {
 
 const cli::PictureFunctions& load_functions() {
-  // Found by the program's own search path, and never closed.
+  // The module is found by the program's search path (RPATH), and never closed.
   void* const module = ::dlopen(PAH_PICTURES_MODULE, RTLD_LAZY | RTLD_LOCAL);
   const void* const functions =
       module == nullptr ? nullptr : ::dlsym(module, cli::picture_functions_name);

@@ -1,4 +1,4 @@
-// The film of a render under way, kept in a file beside its picture.
+// Saves the state of a running render to a film file beside its picture.
 #pragma once
 
 #include <chrono>
@@ -12,8 +12,8 @@
 namespace pah::cli {
 
 struct CheckpointOptions {
-  std::optional<double> interval;  // seconds; none: nothing is kept
-  bool resume = false;             // go on from what is kept
+  std::optional<double> interval;  // seconds; without it nothing is saved
+  bool resume = false;             // continue from the saved film
   bool quiet = false;
 };
 
@@ -22,16 +22,17 @@ class Checkpoint {
   Checkpoint(const std::filesystem::path& picture, FilmOrigin origin,
              const CheckpointOptions& options, Warnings& warnings);
 
-  // What is kept, or nothing yet, as from sample `from` on. Throws FileError if what is kept is not
-  // of this render.
+  // Returns the saved film, or an empty one that starts at sample `from`. Throws FileError if the
+  // saved film belongs to another render.
   [[nodiscard]] StartedFilm start(int from);
 
-  // Whatever cannot be written is warned of once; rendering is worth more.
+  // Saves the film if it is time to. A failure causes one warning, because the render is worth
+  // more.
   void pass_done(const Film& film, const FilmSamples& samples);
-  // Of a render that was stopped.
+  // Saves the film of a stopped render.
   void keep(const Film& film, const FilmSamples& samples);
 
-  // There is a whole picture.
+  // Removes the file, once the picture is complete.
   void remove() const;
 
  private:

@@ -1,4 +1,4 @@
-// The picture as it is so far, for those who look at it while it is rendered.
+// Writes the unfinished picture during a render.
 #pragma once
 
 #include <functional>
@@ -13,15 +13,15 @@ namespace pah::cli {
 
 class EarlyPictures {
  public:
-  // To a file; may throw.
+  // Writes to a file; may throw.
   using Write = std::function<void(const Film&, const Progress&)>;
   using Warn = std::function<void(const std::string&)>;
 
   EarlyPictures(double interval, Write write, Warn warn)
       : schedule_(interval), write_(std::move(write)), warn_(std::move(warn)) {}
 
-  // Writes if it is time to. Warns of the first time that this fails, and tries again when it is
-  // time again: there may be room by then.
+  // Writes if it is time to. Warns of the first failure only, and tries again at the next time: the
+  // disk may have room by then.
   void show(const Film& film, const Progress& progress);
 
  private:

@@ -11,7 +11,7 @@ bool has_number(const fs::path& file) {
   return file.filename().string().find('#') != std::string::npos;
 }
 
-// Where the frames' pictures go: every one needs a file of its own.
+// Returns the output's name with #: each frame needs a file of its own.
 fs::path pattern_of(const RenderArguments& arguments) {
   if (arguments.output.empty()) return arguments.scene.stem().string() + "_####.png";
   return arguments.output;

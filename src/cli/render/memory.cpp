@@ -15,7 +15,7 @@
 namespace pah::cli {
 namespace {
 
-// Bytes; as good as endless where the system does not say.
+// Returns bytes; practically infinite if the system does not tell.
 double available_memory() {
   double available = std::numeric_limits<double>::infinity();
   std::ifstream memory("/proc/meminfo");

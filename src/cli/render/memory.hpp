@@ -1,11 +1,11 @@
-// Whether there is memory for what a picture takes.
+// Checks that a picture fits into memory.
 #pragma once
 
 #include <pah/scene/settings.hpp>
 
 namespace pah::cli {
 
-// Throws std::runtime_error, in plain words, if the film alone takes more than there is.
+// Throws std::runtime_error, with a message for users, if the film alone exceeds the free memory.
 void check_memory_for(const FilmSettings& film);
 
 }  // namespace pah::cli

@@ -1,4 +1,4 @@
-// A small, rough picture of the same view.
+// Settings for a small, rough picture of the same view.
 #pragma once
 
 #include <pah/scene/settings.hpp>
@@ -7,7 +7,7 @@ namespace pah::cli {
 
 constexpr int preview_samples = 4;
 
-// A quarter of the width and of the height, rounded up; of a crop, the pixels that its own cover.
+// Returns a quarter of the width and height, rounded up. A crop becomes the pixels that cover it.
 [[nodiscard]] FilmSettings preview_of(FilmSettings film);
 
 }  // namespace pah::cli

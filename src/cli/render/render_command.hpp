@@ -1,4 +1,4 @@
-// pahrender SCENE -o OUT: the default command.
+// The default command: `pahrender SCENE -o OUT`.
 #pragma once
 
 #include <atomic>
@@ -20,7 +20,7 @@ struct IndexRange {
   int from = 0, to = 0;  // [from, to)
 };
 
-// What is not set stays as the scene says.
+// Unset options keep the scene's values.
 struct RenderArguments {
   std::filesystem::path scene;
   std::filesystem::path output;  // empty: the scene's name with .png, in the current folder
@@ -31,32 +31,32 @@ struct RenderArguments {
   std::optional<double> exposure;
   int threads = 0;                         // 0: all
   double time_limit = 0;                   // seconds; 0: none
-  std::optional<IndexRange> sample_range;  // of every pixel; none: all
-  std::optional<double> checkpoint;        // seconds between writing what there is
-  bool resume = false;                     // go on from it
+  std::optional<IndexRange> sample_range;  // of every pixel; by default all
+  std::optional<double> checkpoint;        // seconds between saves
+  bool resume = false;                     // continue from the checkpoint
   std::optional<double> write_every;       // seconds; 0: after every pass
-  std::optional<TevAddress> tev;           // a viewer that shows the picture under way
-  std::string accelerator;                 // empty: by the scene
+  std::optional<TevAddress> tev;           // a viewer that shows the running render
+  std::string accelerator;                 // empty: chosen by the scene
   std::vector<std::string> overrides;      // key.path=value
   std::optional<IndexRange> frames;        // of an animation
-  std::optional<int> frame;                // the one of them to render
+  std::optional<int> frame;                // the frame to render
   std::filesystem::path stats;             // empty: none
   bool half = false;                       // EXR files in 16-bit floats
   std::optional<int> png_bits;             // 8 or 16
-  bool keep_whole = false;  // a picture that is there already, as it would be rendered
+  bool keep_whole = false;  // keep an existing picture if it is complete and has the same settings
   bool quiet = false;
   bool strict = false;  // warnings are errors
   bool check = false;
 };
 
-// For those who render a scene more than once.
+// Hooks for callers that render a scene more than once.
 struct RenderHooks {
   std::function<void(const std::filesystem::path&)> on_file;  // as LoadOptions::on_file
   LoadedFiles* loaded = nullptr;                              // as LoadOptions::loaded
-  const std::atomic<bool>* outdated = nullptr;  // once set, a render that was stopped is not saved
+  const std::atomic<bool>* outdated = nullptr;  // if set, a stopped render is not saved
 };
 
-// One picture. Throws UsageError, SceneError or FileError.
+// Renders one picture. Throws UsageError, SceneError or FileError.
 ExitCode run_render(const RenderArguments& arguments, const RenderHooks& hooks = {});
 
 }  // namespace pah::cli

@@ -30,7 +30,7 @@ bool any_samples(const Film& film) {
   return std::ranges::any_of(film.pixels, [](const FilmPixel& pixel) { return pixel.samples > 0; });
 }
 
-// A preview is to show something soon, so its loading gets only the time that building leaves.
+// A preview should appear soon, so it loads the library only in the time that building leaves.
 void load_picture_library(bool with_least_priority) {
   constexpr int least = 19;
   if (with_least_priority) (void)::setpriority(PRIO_PROCESS, static_cast<id_t>(::gettid()), least);
@@ -44,7 +44,7 @@ RenderJob::RenderJob(const RenderArguments& arguments, const RenderHooks& hooks)
       hooks_(hooks),
       output_(checked_output(arguments)),
       threads_(arguments.threads > 0 ? arguments.threads : tbb::info::default_concurrency()),
-      // oneTBB does not go beyond the number of cores unless it is told to.
+      // By default oneTBB limits itself to the number of cores.
       parallelism_(tbb::global_control::max_allowed_parallelism,
                    static_cast<std::size_t>(threads_)),
       warnings_(arguments.quiet, arguments.strict) {}
@@ -73,9 +73,9 @@ std::optional<ExitCode> RenderJob::load() {
     if (!arguments_.quiet) say(fmt::format("{} is already complete\n", output_.string()));
     return ending();
   }
-  checkpoint_.emplace(output_, origin_,
-                      CheckpointOptions{arguments_.checkpoint, arguments_.resume, arguments_.quiet},
-                      warnings_);
+  checkpoint_ = std::make_unique<Checkpoint>(
+      output_, origin_,
+      CheckpointOptions{arguments_.checkpoint, arguments_.resume, arguments_.quiet}, warnings_);
   started_ = checkpoint_->start(first_sample);
   world_ = make_world(scene_);
   warnings_.add(world_.warnings);

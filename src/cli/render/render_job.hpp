@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <future>
+#include <memory>
 #include <optional>
 #include <pah/load/load_scene.hpp>
 #include <pah/render/acceleration.hpp>
@@ -35,7 +36,7 @@ class RenderJob {
   [[nodiscard]] ExitCode save();
 
  private:
-  // What the options say replaces what the scene says.
+  // Applies the options, which override the scene.
   void apply_arguments();
   void open_onlookers();
   [[nodiscard]] RenderOptions render_options();
@@ -56,21 +57,21 @@ class RenderJob {
   Warnings warnings_;
   RenderReport report_;
 
-  // Of load().
+  // Set by load().
   Scene scene_;
   FilmOrigin origin_;
-  std::optional<Checkpoint> checkpoint_;
+  std::unique_ptr<Checkpoint> checkpoint_;
   StartedFilm started_;
   World world_;
 
-  // Of build(). The picture library takes half a second to load, and is needed last.
+  // Set by build(). The picture library takes half a second to load, and is needed last.
   std::shared_future<void> picture_library_;
   Acceleration acceleration_;
 
-  // Of trace(): those who look at the picture while it is rendered, and the result.
+  // Set by trace(): viewers of the unfinished picture, and the result.
   std::optional<EarlyPictures> early_;
   std::optional<TevStream> tev_;
-  // From the first samples on: before, there is nothing that an interrupt should wait for.
+  // Exists from the first samples on: before them an interrupt has nothing to save.
   std::optional<SavingOnInterrupt> saving_;
   RenderResult result_;
 };

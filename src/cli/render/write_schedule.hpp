@@ -4,9 +4,8 @@
 
 namespace pah::cli {
 
-// When to write a picture that is still rendered: at once, then as often as is asked for, but less
-// often where writing would take more than a share of the time. All times are in seconds, by one
-// clock.
+// Decides when to write an unfinished picture: at once, then at the given interval, or less often
+// if writing would exceed a share of the time. All times are in seconds of one clock.
 class WriteSchedule {
  public:
   explicit WriteSchedule(double interval) : interval_(interval) {}
@@ -20,7 +19,7 @@ class WriteSchedule {
  private:
   double interval_;
   double next_ = 0;
-  double share_ = 0.1;  // the first time takes longer: encoders are loaded, files are made
+  double share_ = 0.1;  // the first write takes longer: it loads encoders and creates files
 };
 
 }  // namespace pah::cli

@@ -1,4 +1,4 @@
-// What the program says on stderr.
+// Messages on stderr.
 #pragma once
 
 #include <cstdint>
@@ -6,16 +6,16 @@
 
 namespace pah::cli {
 
-// To stderr, at once; one that is closed or full is nobody's business.
+// Prints to stderr at once; ignores a stderr that is closed or full.
 void say(const std::string& text) noexcept;
 
-// Whether stderr is a terminal that does more than print.
+// Returns whether stderr is a terminal that can move its cursor.
 [[nodiscard]] bool can_redraw();
 
-// "4.2 s", "3:07", "2:03:07".
+// Formats seconds: "4.2 s", "3:07", "2:03:07".
 [[nodiscard]] std::string format_duration(double seconds);
 
-// "12.3 Mrays/s".
+// Formats a rate: "12.3 Mrays/s".
 [[nodiscard]] std::string format_ray_rate(std::uint64_t rays, double seconds);
 
 }  // namespace pah::cli

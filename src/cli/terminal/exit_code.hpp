@@ -1,4 +1,4 @@
-// How the program ends.
+// Exit codes of the program.
 #pragma once
 
 #include <stdexcept>
@@ -14,7 +14,7 @@ enum class ExitCode {
   interrupted = 130,
 };
 
-// What was asked for on the command line makes no sense.
+// The command line is wrong.
 class UsageError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

@@ -11,8 +11,8 @@
 
 namespace pah::cli {
 
-// The size that the command line asks for; one side alone keeps the film's aspect. It is bounded as
-// what a scene may ask for. Throws UsageError.
+// Applies the size on the command line; one side alone keeps the film's aspect ratio. Throws
+// UsageError beyond the limits of scenes.
 inline void resize(FilmSettings& film, std::optional<int> width, std::optional<int> height) {
   constexpr double most = 65536;
   const double scale = width    ? static_cast<double>(*width) / film.width

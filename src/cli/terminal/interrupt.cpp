@@ -8,7 +8,7 @@
 namespace pah::cli {
 namespace {
 
-// A signal handler may touch lock-free atomics only.
+// Signal handlers may only use lock-free atomics.
 static_assert(std::atomic<bool>::is_always_lock_free);
 std::atomic<bool> saving{false};
 std::atomic<bool> stop{false};
@@ -27,7 +27,7 @@ void handle_interrupts() {
   action.sa_flags = SA_RESTART;
   sigemptyset(&action.sa_mask);
   for (const int signal : {SIGINT, SIGTERM}) sigaction(signal, &action, nullptr);
-  // nohup has it ignored.
+  // nohup makes programs ignore SIGHUP.
   struct sigaction before {};
   sigaction(SIGHUP, nullptr, &before);
   if (before.sa_handler != SIG_IGN) sigaction(SIGHUP, &action, nullptr);

@@ -1,18 +1,18 @@
-// Ctrl-C, SIGTERM and SIGHUP.
+// Handling of Ctrl-C, SIGTERM and SIGHUP.
 #pragma once
 
 #include <atomic>
 
 namespace pah::cli {
 
-// From here on they end the program at once with exit code 130; SIGHUP only if it is not ignored.
+// Makes these signals end the program at once with exit code 130; SIGHUP only if it is not ignored.
 void handle_interrupts();
 
-// From here on a pipe that is closed and a file that is too large make writing fail, no more.
+// Makes writes to a closed pipe or a too large file fail instead of ending the program.
 void outlive_failed_writes();
 
-// While one lives, the first signal only sets stop_requested(): there is something to save. The
-// second still ends the program at once.
+// During its lifetime the first signal only sets stop_requested(), so that the render can be saved.
+// The second signal still ends the program at once.
 class SavingOnInterrupt {
  public:
   SavingOnInterrupt();
@@ -23,10 +23,10 @@ class SavingOnInterrupt {
 
 [[nodiscard]] const std::atomic<bool>& stop_requested();
 
-// Stops as the first signal does, without being one.
+// Requests a stop like the first signal does.
 void request_stop();
 void withdraw_stop();
-// Whether a signal came that did not end the program at once.
+// Returns whether a signal has requested a stop.
 [[nodiscard]] bool signaled();
 
 }  // namespace pah::cli

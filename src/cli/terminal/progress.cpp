@@ -12,7 +12,7 @@
 namespace pah::cli {
 namespace {
 
-// In characters; a longer line would wrap, and could not be drawn over.
+// Returns the width in characters. A longer line would wrap and could not be overwritten.
 std::size_t terminal_width() {
   winsize size{};
   return ::ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 1 ? size.ws_col : 80U;

@@ -1,4 +1,4 @@
-// How far a render is, while it goes on.
+// Shows the progress of a render.
 #pragma once
 
 #include <cstddef>
@@ -7,17 +7,17 @@
 
 namespace pah::cli {
 
-// Where a render ends: whichever comes first.
+// The end of a render, whichever comes first.
 struct RenderGoal {
   int samples = 0;
   double time_limit = 0;  // seconds; 0: none
 };
 
-// A line, without its end, of as much as fits into so many characters.
+// Formats a line without its end, as much as fits into the given width.
 [[nodiscard]] std::string format_progress(const Progress& progress, const RenderGoal& goal,
                                           std::size_t width);
 
-// One line that is drawn over and over. Only make one where can_redraw().
+// A line that is redrawn in place. Requires can_redraw().
 class ProgressBar {
  public:
   explicit ProgressBar(const RenderGoal& goal) : goal_(goal) {}
@@ -26,20 +26,20 @@ class ProgressBar {
   ProgressBar& operator=(const ProgressBar&) = delete;
 
   void show(const Progress& progress);
-  static void wipe();  // for something else to be said, until it is shown again
+  static void wipe();  // clears the line for other messages
 
  private:
   RenderGoal goal_;
   double next_ = 0;  // seconds since the render began
 };
 
-// A line now and then, for logs.
+// Prints a line from time to time, for logs.
 class Heartbeat {
  public:
   explicit Heartbeat(const RenderGoal& goal, double interval = 10)
       : goal_(goal), interval_(interval), next_(interval) {}
 
-  // What to say now: the next line, or nothing yet.
+  // Returns the next line if it is due, else an empty string.
   [[nodiscard]] std::string line(const Progress& progress);
 
  private:

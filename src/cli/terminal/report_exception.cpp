@@ -20,7 +20,7 @@ ExitCode report_exception() {
   } catch (const SceneError& errors) {
     for (const LocatedError& error : errors.errors()) say(fmt::format("{}\n", format_error(error)));
     return ExitCode::scene_error;
-  } catch (const TextureError& error) {  // found by loading, unless the file has changed since
+  } catch (const TextureError& error) {  // loading finds these unless the file changed since
     say(fmt::format("pahrender: {}\n", error.what()));
     return ExitCode::scene_error;
   } catch (const FileError& error) {

@@ -4,7 +4,7 @@
 
 namespace pah::cli {
 
-// Says what the exception that is being handled means.
+// Prints the exception that is being handled and returns its exit code.
 ExitCode report_exception();
 
 }  // namespace pah::cli

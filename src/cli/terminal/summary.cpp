@@ -17,12 +17,12 @@ std::uint64_t total_rays(const RenderCounts& counts) {
   return total;
 }
 
-// 0.012, 3.4, 56.7
+// Formats a mean with few digits: 0.012, 3.4, 56.7.
 std::string format_mean(double mean) {
   return mean < 1 ? fmt::format("{:.2g}", mean) : fmt::format("{:.1f}", mean);
 }
 
-// Per pixel, with what is there of the last pass; those that were not finite count, too.
+// Returns the mean samples per pixel, including those of an unfinished pass and dropped ones.
 double samples_of(const RenderResult& result) {
   return std::max(mean_samples(result.film), static_cast<double>(result.samples));
 }

@@ -7,13 +7,14 @@
 
 namespace pah::cli {
 
-// "64", or "12.4 of 64" if some were left out.
+// Returns "64", or "12.4 of 64" if some are missing.
 [[nodiscard]] std::string format_samples(const RenderResult& result, int wanted);
 
-// "error about 2.1 % (256 samples would halve it)"; empty with fewer than two samples a pixel.
+// Returns "error about 2.1 % (256 samples would halve it)"; empty with fewer than two samples per
+// pixel.
 [[nodiscard]] std::string format_error(const RenderResult& result);
 
-// `seconds` are those of the whole program; those of the render alone make the rate of rays.
+// `seconds` is the time of the whole program; the rate of rays uses the time of the render alone.
 [[nodiscard]] std::string summary_of(const std::filesystem::path& file, const RenderResult& result,
                                      int samples_wanted, double seconds);
 

@@ -1,4 +1,4 @@
-// What is wrong with a picture without stopping it.
+// Warnings of a render.
 #pragma once
 
 #include <pah/base/errors.hpp>
@@ -7,8 +7,8 @@
 
 namespace pah::cli {
 
-// Says warnings as they come, and counts them. Where they are to be errors they are called so, and
-// are said whatever else is not.
+// Prints warnings as they come and counts them. In strict mode they are called errors, and are
+// printed also in quiet mode.
 class Warnings {
  public:
   Warnings(bool quiet, bool strict) : quiet_(quiet), strict_(strict) {}
@@ -18,7 +18,7 @@ class Warnings {
   void add(const std::vector<LocatedError>& warnings);
 
   [[nodiscard]] int count() const { return count_; }
-  // Whether they are errors, and there are some.
+  // Returns whether there are warnings in strict mode.
   [[nodiscard]] bool failed() const { return strict_ && count_ > 0; }
 
  private:

@@ -18,7 +18,7 @@ bool consists_of(std::string_view text, std::initializer_list<std::string_view> 
   });
 }
 
-// From 1 on: 0 is not a port that anything listens on.
+// Port 0 is refused, because nothing can listen on it.
 std::optional<std::uint16_t> parse_port(std::string_view text) {
   std::uint16_t port = 0;
   const auto [next, error] = std::from_chars(text.data(), text.data() + text.size(), port);
@@ -26,7 +26,7 @@ std::optional<std::uint16_t> parse_port(std::string_view text) {
   return port;
 }
 
-// ":PORT", or nothing.
+// Parses ":PORT", or an empty text.
 bool parse_rest(std::string_view text, TevAddress& address) {
   if (text.empty()) return true;
   const auto port = text[0] == ':' ? parse_port(text.substr(1)) : std::nullopt;

@@ -1,4 +1,4 @@
-// Where an image viewer listens: --tev.
+// The address of the image viewer tev (--tev).
 #pragma once
 
 #include <cstdint>
@@ -16,10 +16,11 @@ struct TevAddress {
   [[nodiscard]] bool operator==(const TevAddress&) const = default;
 };
 
-// HOST, HOST:PORT, :PORT or PORT; IPv6 addresses are in brackets. None if it is nothing of these.
+// Parses HOST, HOST:PORT, :PORT or PORT; IPv6 addresses are in brackets. Returns nothing for other
+// texts.
 [[nodiscard]] std::optional<TevAddress> parse_tev_address(std::string_view text);
 
-// As it is written in full.
+// Returns the full form, with host and port.
 [[nodiscard]] std::string to_string(const TevAddress& address);
 
 }  // namespace pah::cli

@@ -42,8 +42,8 @@ int look_up(const TevAddress& address, int flags, Addresses& found) {
   return error;
 }
 
-// To look up a name may take long, and cannot be ended: that is left to a thread which nobody waits
-// for any more once out of time. Numbers need none.
+// A name lookup can take long and cannot be cancelled. A detached thread does it, so that the
+// caller can stop waiting. Numeric addresses need no thread.
 Addresses resolve(const TevAddress& address, const TevConnection::OutOfTime& out_of_time) {
   Addresses numbers;
   if (look_up(address, AI_NUMERICHOST, numbers) == 0) return numbers;
@@ -60,7 +60,7 @@ Addresses resolve(const TevAddress& address, const TevConnection::OutOfTime& out
   return found.get();
 }
 
-// False if out of time before.
+// Returns false on a timeout.
 bool wait_for(int socket, short events, const TevConnection::OutOfTime& out_of_time) {
   pollfd waiting{socket, events, 0};
   while (::poll(&waiting, 1, static_cast<int>(between_tries.count())) <= 0)
@@ -68,7 +68,7 @@ bool wait_for(int socket, short events, const TevConnection::OutOfTime& out_of_t
   return true;
 }
 
-// What became of what was done last; 0 if all is well.
+// Returns the error of the last operation on the socket, 0 for none.
 int pending_error(int socket) {
   int error = 0;
   socklen_t size = sizeof(error);
@@ -102,7 +102,7 @@ TevConnection::TevConnection(const TevAddress& address, const OutOfTime& out_of_
 TevConnection::~TevConnection() { ::close(socket_); }
 
 bool TevConnection::send(std::string_view bytes, const OutOfTime& out_of_time) {
-  // Else the system would take what is sent to a viewer that has hung up, once.
+  // Without this check the system would accept one write to a viewer that has hung up.
   pollfd other_side{socket_, POLLRDHUP, 0};
   if (::poll(&other_side, 1, 0) > 0) {
     const int error = pending_error(socket_);
@@ -114,7 +114,7 @@ bool TevConnection::send(std::string_view bytes, const OutOfTime& out_of_time) {
       bytes.remove_prefix(static_cast<std::size_t>(sent));
     else if (errno != EAGAIN && errno != EWOULDBLOCK && errno != EINTR)
       throw failure(errno);
-    // Also if it takes some now and then: else slow viewers would have no end.
+    // The time limit also holds if the viewer reads a little now and then.
     if (out_of_time() && !bytes.empty()) return false;
     if (sent < 0 && !wait_for(socket_, POLLOUT, out_of_time)) return false;
   }
@@ -128,7 +128,7 @@ void TevConnection::finish(const OutOfTime& out_of_time) {
     const ssize_t count = ::recv(socket_, said.data(), said.size(), 0);
     if (count < 0 && errno != EAGAIN && errno != EINTR) throw failure(errno);
     if (count == 0) {
-      // It may have hung up long before, without reading what came after.
+      // The viewer may have hung up before it read everything.
       if (const int error = pending_error(socket_); error != 0) throw failure(error);
       return;
     }

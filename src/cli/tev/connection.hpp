@@ -1,4 +1,4 @@
-// A TCP connection to an image viewer, which is written to and never read from.
+// A TCP connection to an image viewer, used for writing only.
 #pragma once
 
 #include <functional>
@@ -10,22 +10,22 @@ namespace pah::cli {
 
 class TevConnection {
  public:
-  // Whether to wait no longer; asked every some hundredths of a second while there is waiting.
+  // Returns whether to stop waiting; called several times in a tenth of a second while waiting.
   using OutOfTime = std::function<bool()>;
 
-  // Throws std::runtime_error, which says why, if nobody answers there in time.
+  // Throws std::runtime_error with the reason if nobody answers in time.
   TevConnection(const TevAddress& address, const OutOfTime& out_of_time);
   ~TevConnection();
   TevConnection(const TevConnection&) = delete;
   TevConnection& operator=(const TevConnection&) = delete;
 
-  // False if the other side did not take all of it in time; what it took is then no whole packet,
-  // and no more can be sent. Throws std::runtime_error if the connection is lost.
+  // Returns false if the viewer did not accept everything in time. It then holds a partial packet,
+  // and nothing more can be sent. Throws std::runtime_error if the connection is lost.
   [[nodiscard]] bool send(std::string_view bytes, const OutOfTime& out_of_time);
 
-  // Says that this was all, and waits until the other side has read it and hangs up, or until out
-  // of time: what was sent is then left to the system. Throws std::runtime_error if the connection
-  // was lost before.
+  // Closes the sending side and waits until the viewer has read everything and hangs up, or until
+  // the timeout; the system then delivers the remainder. Throws std::runtime_error if the
+  // connection was lost before.
   void finish(const OutOfTime& out_of_time);
 
  private:

@@ -11,8 +11,8 @@
 namespace pah::cli {
 namespace {
 
-// Of the three versions of an update the third is the one that takes the channels of a pixel side
-// by side, as pictures here are; the first takes one channel, the second one after the other.
+// Version 3 of an update takes the channels of a pixel interleaved, as pictures are stored here.
+// Version 1 takes one channel, version 2 one channel after the other.
 enum class PacketType : std::uint8_t { create_image = 4, update_image_v3 = 6 };
 
 constexpr std::array<std::string_view, 3> channels{"R", "G", "B"};
@@ -71,7 +71,7 @@ void add_channels(Packet& packet) {
 
 std::string create_image_packet(const std::string& name, int width, int height) {
   Packet packet(PacketType::create_image);
-  packet.add(true);  // select it: who sends a picture wants to see it
+  packet.add(true);  // selects the picture
   packet.add(std::string_view(name));
   packet.add(width);
   packet.add(height);
@@ -81,7 +81,7 @@ std::string create_image_packet(const std::string& name, int width, int height) 
 
 std::string update_image_packet(const std::string& name, int x, int y, const Image& pixels) {
   Packet packet(PacketType::update_image_v3);
-  packet.add(false);  // who looks at another picture meanwhile is left alone
+  packet.add(false);  // does not select the picture: the user may look at another
   packet.add(std::string_view(name));
   add_channels(packet);
   for (const int number : {x, y, pixels.width, pixels.height}) packet.add(number);

@@ -1,9 +1,7 @@
-// What the image viewer tev is told, as bytes. The protocol is by its source
-// (https://github.com/Tom94/tev: src/Ipc.cpp and include/tev/Ipc.h say what packets hold,
-// src/main.cpp what becomes of them). All numbers are little-endian; a packet is
-//   u32 its length, itself included
-//   u8  its type
-//   and what belongs to the type, where strings end with a 0, and flags are bytes.
+// The packets of the image viewer tev. Its source defines the protocol
+// (https://github.com/Tom94/tev: src/Ipc.cpp and include/tev/Ipc.h define the packets, src/main.cpp
+// their effect). All numbers are little-endian; a packet is u32 its length, itself included u8 its
+// type and what belongs to the type, where strings end with a 0, and flags are bytes.
 #pragma once
 
 #include <pah/image/image.hpp>
@@ -11,10 +9,10 @@
 
 namespace pah::cli {
 
-// Shows a black picture with the channels R, G and B. It takes the place of one of this name.
+// Shows a black picture with the channels R, G and B; replaces a picture of the same name.
 [[nodiscard]] std::string create_image_packet(const std::string& name, int width, int height);
 
-// Replaces the pixels from (x, y) on, all of which must be in the picture of this name.
+// Replaces the pixels from (x, y) on; all must lie in the picture of this name.
 [[nodiscard]] std::string update_image_packet(const std::string& name, int x, int y,
                                               const Image& pixels);
 

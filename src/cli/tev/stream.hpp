@@ -1,4 +1,4 @@
-// The picture under way, tile by tile, to the image viewer tev.
+// Sends a running render to the image viewer tev, tile by tile.
 #pragma once
 
 #include <atomic>
@@ -18,36 +18,36 @@ class TevConnection;
 
 struct TevLimits {
   std::chrono::milliseconds connecting{5000};
-  std::chrono::milliseconds finishing{2000};  // sending what waits, once the picture is finished
+  std::chrono::milliseconds finishing{2000};  // for sending the remaining tiles at the end
 };
 
-// A render never waits for the viewer: a thread connects and sends, and what that has not come to
-// yet is replaced when it changes. If there is no viewer, or not any more, nothing is sent.
+// A thread connects and sends, so a render never waits for the viewer. A tile that still waits is
+// replaced when it changes. Without a viewer nothing is sent.
 class TevStream {
  public:
-  // The picture's name in the viewer, where it replaces one of this name. It has all pixels, also
-  // those that a crop leaves out.
+  // `name` is the picture's name in the viewer, where it replaces a picture of that name. The
+  // picture has its full size, also with a crop.
   TevStream(TevAddress address, std::string name, const FilmSettings& film,
             const TevLimits& limits = {});
-  // Does not wait for what is not sent yet; what was sent stays in the viewer.
+  // Drops tiles that are not sent yet; those that were sent stay in the viewer.
   ~TevStream();
   TevStream(const TevStream&) = delete;
   TevStream& operator=(const TevStream&) = delete;
 
-  // The means of the rectangle's pixels so far, as of a tile. By several threads at a time.
+  // Queues the current means of the tile's pixels. Thread-safe.
   void show(const Film& film, const PixelRect& rect);
 
-  // Nothing more is to be shown: sends what waits.
+  // Sends the remaining tiles; the last call.
   void finish();
 
-  // Why the viewer does not show all of the picture; told once.
+  // Returns, once, why the viewer does not show the whole picture.
   [[nodiscard]] std::optional<std::string> take_fault();
 
  private:
   using Clock = std::chrono::steady_clock;
 
   void run();
-  // False if not in time.
+  // Returns false on a timeout.
   [[nodiscard]] bool send_all(TevConnection& connection);
   [[nodiscard]] bool out_of_time() const { return Clock::now() >= give_up_.load(); }
   void fail(std::string fault);
@@ -61,7 +61,7 @@ class TevStream {
   std::atomic<Clock::time_point> give_up_ = Clock::time_point::max();
   std::mutex mutex_;
   std::optional<std::string> fault_;
-  std::jthread thread_;  // last: it uses the others
+  std::jthread thread_;  // last, because it uses the other members
 };
 
 }  // namespace pah::cli

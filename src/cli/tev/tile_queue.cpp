@@ -8,7 +8,7 @@ void TileQueue::push(ShownTile tile) {
     const std::lock_guard lock(mutex_);
     if (closed_) return;
     const auto [waiting, is_new] = waiting_.try_emplace(place);
-    // Swapped, so that the older one is freed when nobody waits for the lock.
+    // A swap, so that the older pixels are freed after the lock is released.
     std::swap(waiting->second, tile.pixels);
     if (!is_new) return;
     order_.push_back(place);

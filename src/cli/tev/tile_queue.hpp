@@ -1,4 +1,4 @@
-// Finished tiles on their way to somebody slower.
+// A queue of finished tiles for a slower reader.
 #pragma once
 
 #include <condition_variable>
@@ -16,17 +16,16 @@ struct ShownTile {
   Image pixels;
 };
 
-// First in, first out, but a tile that still waits is replaced by its newer state: so there are
-// never more waiting than the picture has, and none waits for another twice. All of it may be
-// called by any thread.
+// A first-in, first-out queue in which a newer state of a waiting tile replaces the older one. So
+// it never holds more tiles than the picture has. Thread-safe.
 class TileQueue {
  public:
-  // Tiles are told from one another by their first pixels. Once closed, they are left out.
+  // Adds a tile; its first pixel identifies it. A closed queue ignores it.
   void push(ShownTile tile);
-  // Waits for one. None once the queue is closed, and what was in it taken.
+  // Waits for a tile. Returns nothing once the queue is closed and empty.
   [[nodiscard]] std::optional<ShownTile> pop();
   void close();
-  // Also drops what waits.
+  // Closes the queue and drops the waiting tiles.
   void abandon();
 
   [[nodiscard]] std::size_t size() const;

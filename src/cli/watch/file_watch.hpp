@@ -1,4 +1,4 @@
-// Whether files have changed, by their sizes and the times they were modified.
+// Detects changes of files by their sizes and modification times.
 #pragma once
 
 #include <filesystem>
@@ -9,10 +9,11 @@
 
 namespace pah::cli {
 
-// May be used by several threads at once.
+// Thread-safe.
 class FileWatch {
  public:
-  // From how it is now, unless it is watched already; it need not be there.
+  // Watches a file from its current state on, unless it is watched already. The file need not
+  // exist.
   void watch(const std::filesystem::path& file);
   [[nodiscard]] bool changed() const;
   void accept_changes();

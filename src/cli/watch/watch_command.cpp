@@ -20,7 +20,7 @@ namespace {
 
 constexpr std::chrono::milliseconds between_looks(200);
 
-// While it lives, a change of the files stops the render.
+// Stops the render when a file changes during its lifetime.
 class StopOnChange {
  public:
   explicit StopOnChange(const FileWatch& files)
@@ -41,7 +41,7 @@ class StopOnChange {
   }
 
   std::atomic<bool> changed_ = false;
-  std::jthread thread_;  // last: it uses the others
+  std::jthread thread_;  // last, because it uses the other members
 };
 
 void render_once(const RenderArguments& arguments, FileWatch& files, LoadedFiles& loaded,
@@ -60,7 +60,7 @@ void render_once(const RenderArguments& arguments, FileWatch& files, LoadedFiles
   }
 }
 
-// An editor may take several steps to write a file.
+// Waits a little longer, because editors may write a file in several steps.
 void wait_for_change(FileWatch& files) {
   while (!files.changed()) std::this_thread::sleep_for(between_looks);
   do {

@@ -1,4 +1,4 @@
-// pahrender watch SCENE -o OUT
+// The command `pahrender watch SCENE -o OUT`.
 #pragma once
 
 #include "cli/render/render_command.hpp"
@@ -6,9 +6,8 @@
 
 namespace pah::cli {
 
-// Renders anew, everything loaded again, whenever the scene or a file that it names changes, until
-// a signal ends it. Throws UsageError if the first render does; other errors are said, and a change
-// is waited for.
+// Loads and renders the scene again whenever one of its files changes, until a signal. Throws
+// UsageError if the first render does; prints other errors and waits for the next change.
 ExitCode run_watch(const RenderArguments& arguments);
 
 }  // namespace pah::cli

@@ -17,13 +17,15 @@ struct Key {
   double value = 0;
 };
 
-// Before the first key its value, after the last one that one's. `keys` ascend, and there is one.
+// Interpolates; constant before the first and after the last key. `keys` are ascending and not
+// empty.
 [[nodiscard]] double interpolate(std::span<const Key> keys, double at, Interpolation interpolation);
 
-// Whether a map is one of keyframes and not of other things by name.
+// Returns whether a map holds keyframes.
 [[nodiscard]] bool is_keyframes(const YamlNode& map);
 
-// The number or list of numbers at `frame`, or null and errors. Without a node it is described.
+// Returns the number or list of numbers at `frame`; reports errors and returns null otherwise.
+// Without a node it describes its keys.
 [[nodiscard]] YamlRef read_keyframes(ReadContext& context, const YamlNode* node, double frame);
 
 }  // namespace pah

@@ -24,7 +24,7 @@ std::string read_text(const fs::path& file, std::uint64_t most_bytes) {
   if (status.type() == fs::file_type::directory) throw FileError(shown + "it is a directory");
   std::ifstream stream(file, std::ios::binary);
   if (!stream) throw FileError(shown + std::generic_category().message(errno));
-  // Not by its size: a pipe has none.
+  // Reads to the end instead of asking for the size, because pipes have none.
   std::string text;
   std::vector<char> buffer(1U << 16U);
   while (stream.read(buffer.data(), static_cast<std::streamsize>(buffer.size())) ||
@@ -151,7 +151,7 @@ const YamlNode* section(const YamlNode& root, std::string_view key) {
                                                                         : entry->value.get();
 }
 
-// Files that are no scenes of ours, by their names.
+// Refuses files of other programs, by their extensions.
 void refuse_other_formats(const fs::path& file) {
   const std::string extension = lower_extension(file);
   const auto& meshes = mesh_extensions();
@@ -169,7 +169,7 @@ void refuse_other_formats(const fs::path& file) {
   throw SceneError(std::move(errors));
 }
 
-// What is missing for a picture in which there is something to see.
+// Warns if the scene has no light or no mesh.
 void warn_of_gaps(const Scene& scene, ErrorCollector& errors) {
   if (scene.lights.empty()) errors.warn({}, "the scene has no light: the picture will be black");
   if (scene.instances.empty()) errors.warn({}, "the scene has no mesh: the picture will be empty");
@@ -202,7 +202,7 @@ LoadedScene load_scene(const fs::path& file, const LoadOptions& options) {
     } else {
       const FrameTime now = read_animation(context, section(*root, "animation"), options.frame);
       const YamlRef shown = at_frame(context, root, now);
-      // What is left in the place of numbers would be one error more.
+      // Stops here, because the faulty values would cause further errors.
       if (errors.size() > faults.size()) throw SceneError(errors.located());
       loaded.animated = shown != root;
       if (loaded.animated) files.hash().add_part(std::to_string(now.frame));

@@ -9,7 +9,7 @@ namespace {
 
 bool is_blank(char c) { return c == ' ' || c == '\t'; }
 
-// Where in the line a comment begins that is a color in truth; nothing if none does.
+// Returns where in the line a comment begins that was probably meant as a color.
 std::optional<std::size_t> color_as_comment(std::string_view line) {
   char quote = 0;
   for (std::size_t i = 0; i < line.size(); ++i) {

@@ -1,4 +1,4 @@
-// What a mistake most likely is: for messages that say how to mend it.
+// Guesses the mistake behind a fault, for messages that say how to fix it.
 #pragma once
 
 #include <string>
@@ -8,8 +8,8 @@
 
 namespace pah {
 
-// The mistake behind a fault that a parser has found in the text, at its own place if that can be
-// told; else the fault as it is.
+// Returns the likely mistake behind a fault of the parser, with its own place if that is known;
+// else the fault itself.
 [[nodiscard]] YamlFault likely_fault(std::string_view text, const YamlFault& fault);
 
 // "; a '#' after a blank begins a comment: ..." if the line has a color behind such a '#'.

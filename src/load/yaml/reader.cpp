@@ -13,7 +13,7 @@
 namespace pah {
 namespace {
 
-// A key that is almost the one that is missing, or what its value may be.
+// Names a key that is similar to the missing one, or the possible values.
 std::string missing_hint(const YamlNode* node, std::string_view key,
                          const std::vector<std::string>& options) {
   if (node != nullptr)
@@ -82,7 +82,7 @@ bool read_number(ReadContext& context, const YamlNode& node, const ValueName& na
   if (fault == NumberFault::not_finite) wanted = "a finite number";
   const bool outside = fault == NumberFault::none && !in_range(number, range);
   if (fault == NumberFault::out_of_range || outside) {
-    // Beyond the largest number of all, the range that this value has of its own does not help.
+    // For a number beyond all limits, the range of this value does not help.
     const bool huge = fault == NumberFault::out_of_range || std::abs(number) > any_number.max;
     wanted = describe_range(huge && !(range.max < any_number.max) ? any_number : range);
   }

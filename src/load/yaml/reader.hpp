@@ -1,7 +1,7 @@
 // Reads maps of a YAML tree into values, checked: types, ranges, names, missing and unknown keys.
 //
-// The reading code is the one description of the language: run over nothing with a Language to
-// fill in, it tells which keys every kind of map has (see describe_language).
+// The reading code is the only description of the language: run without a document and with a
+// Language to fill in, it lists the keys of every kind of map (see describe_language()).
 #pragma once
 
 #include <array>
@@ -20,7 +20,7 @@
 
 namespace pah {
 
-// What a key of a map may be.
+// Properties of a key.
 struct KeyDescription {
   bool required = false;
   std::vector<std::string> options;  // if it is one of a few words
@@ -31,11 +31,11 @@ using Language = std::map<std::string, std::map<std::string, KeyDescription>>;
 struct ReadContext {
   ErrorCollector& errors;
   Language* language = nullptr;  // if set: nothing is read, every kind is described
-  // For an unknown key, a hint for its message by the keys that there are; may be empty.
+  // Returns a hint for the message of an unknown key, given the known keys; may be empty.
   std::string (*hint)(std::string_view key, const std::vector<std::string>& known) = nullptr;
 };
 
-// The numbers that a value may be.
+// The range of a number.
 struct NumberRange {
   double min = -1e18;  // squares of everything in a scene are finite in float
   double max = 1e18;
@@ -54,7 +54,7 @@ using ValueName = std::string;
 [[nodiscard]] std::string describe(const YamlNode& node);
 [[nodiscard]] bool is_number(const YamlNode& node);
 
-// Each reports what is wrong and returns false, `value` unchanged.
+// Each reports errors and then returns false with `value` unchanged.
 bool read_value(ReadContext& context, const YamlNode& node, const ValueName& name, double& value,
                 const NumberRange& range = any_number);
 bool read_value(ReadContext& context, const YamlNode& node, const ValueName& name, float& value,
@@ -113,7 +113,7 @@ class MapReader {
   const YamlNode* find(std::string_view key, bool required = false,
                        const std::vector<std::string>& options = {});
 
-  // False, and `value` as it was, if the key is absent or its value is wrong.
+  // Returns false with `value` unchanged if the key is absent or its value is wrong.
   template <class T, class... Limits>
   bool optional(std::string_view key, T& value, const Limits&... limits) {
     const YamlNode* node = find(key);
@@ -135,7 +135,7 @@ class MapReader {
     if (index < names.size()) value = names[index].second;
     return index < names.size();
   }
-  // Calls read(node) if the key is there; read(nullptr) to have it describe itself.
+  // Calls read(node) if the key is present, or read(nullptr) while describing the language.
   template <class Read>
   void nested(std::string_view key, Read&& read, bool is_required = false) {
     const YamlNode* node = find(key, is_required);
@@ -158,9 +158,9 @@ class MapReader {
     read(reader);
   }
 
-  // Which keys there may be is not known, for want of a valid type: finish() reports none.
+  // Makes finish() accept all keys, because without a valid type the right keys are unknown.
   void ignore_other_keys() { keys_known_ = false; }
-  // Reports the keys that nobody asked for.
+  // Reports unknown keys.
   void finish() const;
 
  private:
@@ -173,7 +173,7 @@ class MapReader {
   std::map<std::string, KeyDescription> common_;
 };
 
-// False, and an error, unless the node is a map or there is none.
+// Reports an error and returns false if the node exists and is not a map.
 bool is_map(ReadContext& context, const YamlNode* node, const std::string& title);
 bool is_list(ReadContext& context, const YamlNode& node, const std::string& title);
 

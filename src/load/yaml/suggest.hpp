@@ -1,4 +1,4 @@
-// "Did you mean": the nearest of the names that would have been right.
+// "Did you mean ...?": finds the most similar of the valid names.
 #pragma once
 
 #include <string>

@@ -122,7 +122,7 @@ class TreeBuilder final : public YAML::EventHandler {
     anchors_[anchor] = std::move(node);
   }
 
-  // Puts a finished node into what is open; `mark` is where it is used.
+  // Adds a finished node to the innermost open one; `mark` is where it is used.
   void add(const YamlRef& node, const Mark& mark) {
     if (open_.empty()) {
       root_ = node;
@@ -260,7 +260,7 @@ void check_utf8(std::string_view text, int override_index) {
 
 YamlError syntax_error(const YAML::Exception& error, std::string_view text, int override_index) {
   Mark mark{override_index, error.mark.line + 1, error.mark.column + 1};
-  // What is only missed at the end of the file belongs to its last line.
+  // An error at the end of the file is reported on its last line.
   text = text.substr(0, text.find_last_not_of(" \t\r\n") + 1);
   const int last_line = 1 + static_cast<int>(std::count(text.begin(), text.end(), '\n'));
   if (mark.line > last_line) {

@@ -14,7 +14,7 @@
 
 namespace pah {
 
-// Where a value was written. Lines and columns count from 1, columns in bytes.
+// The place of a value. Lines and columns count from 1, columns in bytes.
 struct Mark {
   int override_index = -1;  // the override that it came from; -1 for the file
   int line = 0;
@@ -53,7 +53,7 @@ struct YamlLimits {
   int nesting = 64;
 };
 
-// What ends parsing: bad syntax, a limit passed, an alias that holds itself.
+// An error that ends parsing: bad syntax, an exceeded limit, an alias that contains itself.
 class YamlError : public std::runtime_error {
  public:
   YamlError(Mark mark, const std::string& message) : std::runtime_error(message), mark_(mark) {}
@@ -63,7 +63,7 @@ class YamlError : public std::runtime_error {
   Mark mark_;
 };
 
-// A fault beside which parsing goes on.
+// A fault after which parsing continues.
 struct YamlFault {
   Mark mark;
   std::string message;
@@ -75,7 +75,7 @@ struct YamlFault {
                                  std::vector<YamlFault>& faults, int override_index = -1);
 
 // The tree with the value at `path` replaced: keys, list indices and names of list elements, joined
-// by dots. Keys that do not exist are made. Throws YamlError, at `mark`.
+// by dots. Missing keys are created. Throws YamlError, at `mark`.
 [[nodiscard]] YamlRef replace_at(const YamlRef& root, std::string_view path, const YamlRef& value,
                                  const Mark& mark);
 

@@ -1,5 +1,5 @@
-// How surfaces scatter light: free functions over a closed set of models (bsdf_types.hpp). Inline,
-// so that the most frequent model, which is the simplest, costs no more than it must.
+// Evaluates and samples BSDFs: free functions over a closed set of models (types.hpp). They are
+// inline, so that the simplest and most frequent model has no overhead.
 #pragma once
 
 #include "render/bsdf/models.hpp"
@@ -8,7 +8,7 @@ namespace pah {
 
 namespace models {
 
-// w as the model wants it: opaque surfaces are seen from above.
+// Turns w over for opaque models, which are always seen from above.
 template <typename Model>
 [[nodiscard]] inline Vec3 turned(const Model& /*m*/, const Vec3& wo, const Vec3& w) {
   return wo.z > 0 ? w : Vec3{w.x, w.y, -w.z};
@@ -40,8 +40,8 @@ template <typename Model>
       bsdf);
 }
 
-// u chooses the lobe, u2 the direction. Nothing where all light is absorbed or the direction drawn
-// lies below the surface.
+// u chooses the lobe, u2 the direction. Returns nothing if all light is absorbed or the drawn
+// direction lies below the surface.
 [[nodiscard]] inline std::optional<BsdfSample> sample(const Bsdf& bsdf, const Vec3& wo, float u,
                                                       Vec2 u2) {
   if (wo.z == 0) return std::nullopt;
@@ -55,7 +55,7 @@ template <typename Model>
       bsdf);
 }
 
-// False if all lobes are delta: no light can then be connected to.
+// Returns false if all lobes are delta lobes: next-event estimation is then useless.
 [[nodiscard]] inline bool has_smooth_lobes(const Bsdf& bsdf) {
   struct SmoothLobes {
     bool operator()(const DiffuseBsdf& /*m*/) const { return true; }

@@ -48,7 +48,7 @@ Vec3 evaluate_base(const CoatedBsdf& m, const Vec3& wo, const Vec3& wi) {
   return m.base * (transmittance(m, wo.z) * transmittance(m, wi.z) * pdf_cosine_hemisphere(wi));
 }
 
-// By the two lobes' shares of the light if the coat were smooth. It is 1 where there is no base.
+// Chooses lobes by their shares of the light under a smooth coat; 1 without a base.
 float coat_probability(const CoatedBsdf& m, const Vec3& wo) {
   const float base = mean(m.base);
   if (!(base > 0)) return 1;

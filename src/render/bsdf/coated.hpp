@@ -1,12 +1,12 @@
-// Coats over diffuse bases, as plastic and the glTF model want them.
+// Makes coats over diffuse bases: plastic and the glTF model.
 #pragma once
 
 #include "render/bsdf/bsdf.hpp"
 
 namespace pah {
 
-// A dielectric over a diffuse base, with all the light that goes to and fro between them: the base
-// reflects R, the boundary F_i of that from within.
+// A dielectric over a diffuse base, with all inner reflections: the base reflects R, and the
+// boundary reflects F_i of that from within.
 [[nodiscard]] CoatedBsdf make_plastic(const Vec3& reflectance, float ior, float alpha);
 
 // glTF 2.0's metallic-roughness model (specification, appendix B). Where the specification mixes

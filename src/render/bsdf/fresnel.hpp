@@ -1,5 +1,5 @@
-// What share of light a smooth boundary reflects. Cosines are of the angle to the normal, in
-// [0, 1]; light is unpolarized.
+// The share of unpolarized light that a smooth boundary reflects. Cosines are of the angle to the
+// normal, in [0, 1].
 #pragma once
 
 #include <pah/geometry/vec.hpp>
@@ -14,7 +14,7 @@ struct DielectricBoundary {
 // eta is the index beyond the boundary over the index before it, > 0.
 [[nodiscard]] DielectricBoundary fresnel_dielectric(float cos_theta, float eta);
 
-// The reflectance where both cosines are known: from either side the same.
+// The reflectance from both cosines; the same from either side.
 [[nodiscard]] float fresnel_dielectric(float cos_incident, float cos_transmitted, float eta);
 
 // Complex index eta + i k, per channel; both >= 0 and at most max_conductor_index.

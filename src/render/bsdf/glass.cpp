@@ -7,7 +7,7 @@
 namespace pah::models {
 namespace {
 
-// What leaves for wo by way of one facet.
+// The light that one facet sends to wo.
 struct Split {
   Vec3 reflected;
   Vec3 transmitted;

@@ -75,7 +75,8 @@ Vec3 mapped_normal(const Material& material, const TextureStore& textures, Vec2 
       2.0F * Vec3{textures.sample(material.normal_map, uv, TextureUse::data, Vec2{footprint})} -
       1.0F;
   const Vec3 n = map * Vec3{material.normal_scale, material.normal_scale, 1};
-  // A map says nothing of the underside: what points there, or nowhere, is no normal.
+  // A normal map does not describe the underside: normals that point there, or have no length, are
+  // ignored.
   const float length = glm::length(n);
   return n.z > 0 && std::isfinite(length) ? n / length : Vec3{0, 0, 1};
 }

@@ -1,4 +1,4 @@
-// Materials and textures to what scatters at one point.
+// Evaluates materials and their textures at a point.
 #pragma once
 
 #include <pah/scene/material.hpp>
@@ -13,7 +13,7 @@ namespace pah {
 [[nodiscard]] Bsdf resolve_material(const Material& material, const TextureStore& textures, Vec2 uv,
                                     float footprint, const Vec3& vertex_color = Vec3(1));
 
-// Whether light may pass.
+// Returns whether light may pass straight through.
 [[nodiscard]] inline bool is_masked(const Material& material) {
   return material.opacity.value != 1 || material.opacity.texture != no_texture;
 }

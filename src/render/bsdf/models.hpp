@@ -1,5 +1,5 @@
-// The scattering models one by one, as bsdf.hpp dispatches to them. Neither z is 0, and wo.z > 0
-// for all but glass: opaque surfaces seen from below have been turned over.
+// The scattering models to which bsdf.hpp dispatches. Neither z is 0, and wo.z > 0 for all but
+// glass: opaque surfaces seen from below have been turned over.
 #pragma once
 
 #include <optional>

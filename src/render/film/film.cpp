@@ -29,7 +29,7 @@ DVec3 over(const DVec3& sum, std::uint32_t count) {
 
 DVec3 mean_radiance(const FilmPixel& pixel) { return over(pixel.radiance(), pixel.samples); }
 
-// Of a mean of n independent samples; 0 for fewer than two.
+// The variance of a mean of n independent samples; 0 for fewer than two.
 DVec3 variance_of_mean(const FilmPixel& pixel) {
   if (pixel.samples < 2) return DVec3{0};
   const auto n = static_cast<double>(pixel.samples);

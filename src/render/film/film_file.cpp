@@ -150,7 +150,7 @@ FilmOrigin read_origin(WordReader& reader) {
   return origin;
 }
 
-// All but `behind`, whose size it returns.
+// Reads everything but `behind`, and returns the size of `behind`.
 std::uint64_t read_samples(WordReader& reader, FilmSamples& samples) {
   samples.from = reader.integer(0, max_int);
   samples.to = reader.integer(samples.from, max_int);
@@ -234,7 +234,7 @@ FilmFile read_film(const fs::path& file) {
   result.origin = read_origin(reader);
   const std::uint64_t behind = read_samples(reader, result.samples);
 
-  // Nothing is allocated that the file does not hold.
+  // Checked before allocating, so that a damaged file cannot ask for more memory than it holds.
   const std::size_t pixels = pixel_count(pixels_of(result.origin.film));
   const std::size_t features = keeps_features(result.origin.film) ? pixels : 0;
   if (behind > pixels) reader.fail_as_damaged();

@@ -1,4 +1,4 @@
-// Binary files of 64-bit words, little-endian, that end with a checksum.
+// Binary files of little-endian 64-bit words that end with a checksum.
 #pragma once
 
 #include <cstdint>
@@ -25,7 +25,7 @@ class WordChecksum {
 
 class WordWriter {
  public:
-  // Errors call the file `named`.
+  // Error messages name the file `named`.
   WordWriter(const std::filesystem::path& file, std::filesystem::path named);
 
   void put(std::uint64_t word);
@@ -45,17 +45,17 @@ class WordWriter {
   WordChecksum checksum_;
 };
 
-// All throw FileError.
+// All functions throw FileError.
 class WordReader {
  public:
   explicit WordReader(const std::filesystem::path& file);
 
   [[nodiscard]] std::uint64_t word();
   [[nodiscard]] double number();
-  // Of a range: anything else is damage.
+  // Reads a number in a range; a number outside of it means damage.
   [[nodiscard]] int integer(int low, int high);
   [[nodiscard]] std::string text(std::uint64_t max_bytes);
-  // Whether so many words follow, and then the checksum.
+  // Throws unless exactly this number of words, and then the checksum, follow.
   void check_left(std::uint64_t words) const;
   void check_end();
   [[noreturn]] void fail(const std::string& fault) const;

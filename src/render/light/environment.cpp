@@ -73,7 +73,7 @@ Vec3 distant_radiance(const EnvironmentEmitter& emitter, const Vec3& direction) 
   return emitter.radiance * glm::mix(top, bottom, y - y_floor);
 }
 
-// A constant environment is drawn by the cosine: uniformly where light from behind counts too.
+// A constant environment is sampled by the cosine, or uniformly if light from behind counts, too.
 float distant_pdf(const EnvironmentEmitter& emitter, const LitPoint& at, const Vec3& direction) {
   if (emitter.distribution) {
     return emitter.distribution->pdf(glm::transpose(emitter.world_from_light) * direction);

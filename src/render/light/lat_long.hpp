@@ -1,4 +1,4 @@
-// Sampling a lat-long picture in proportion to its brightness.
+// Samples a lat-long picture in proportion to its brightness.
 #pragma once
 
 #include <cstdint>
@@ -8,8 +8,8 @@
 
 namespace pah {
 
-// A direction in the light's own frame and texture coordinates, v from the top: the picture's
-// center is direction -z, its top +y, and u grows to the right, towards +x.
+// Convert between directions in the light's own frame and texture coordinates, v from the top: the
+// picture's center is direction -z, its top +y, and u grows to the right, towards +x.
 [[nodiscard]] Vec2 lat_long_from_direction(const Vec3& direction);
 [[nodiscard]] Vec3 direction_from_lat_long(const Vec2& uv);
 

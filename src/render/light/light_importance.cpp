@@ -3,7 +3,7 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "render/light/light_importance.cpp"
 #include <hwy/foreach_target.h>
-// foreach_target.h comes first.
+// highway.h must follow foreach_target.h.
 #include <hwy/highway.h>
 #include <algorithm>
 #include <array>
@@ -17,14 +17,14 @@ namespace pah {
 namespace HWY_NAMESPACE {
 namespace {
 
-// Leaves room to sum many of them.
+// Small enough that many can be summed.
 constexpr float largest_importance = 1e30F;
 
-// By value and without a branch, so that loops over them are compiled to vectors.
+// By value and without a branch, so that loops vectorize.
 HWY_INLINE float larger(float a, float b) { return a < b ? b : a; }
 HWY_INLINE float sine_of(float cosine) { return std::sqrt(larger(0.0F, 1 - cosine * cosine)); }
 
-// The cosine of max(0, a - b), and its sine, of angles in [0, pi].
+// The cosine, and below the sine, of max(0, a - b) for angles in [0, pi].
 HWY_INLINE float cos_of_difference(float sin_a, float cos_a, float sin_b, float cos_b) {
   const float cosine = cos_a * cos_b + sin_a * sin_b;
   return cos_a > cos_b ? 1 : cosine;
@@ -34,8 +34,8 @@ HWY_INLINE float sin_of_difference(float sin_a, float cos_a, float sin_b, float 
   return cos_a > cos_b ? 0 : sine;
 }
 
-// In scalars, and all of it computed before it is chosen from: this is compiled to vectors, and
-// once for each instruction set.
+// Scalar code that the compiler vectorizes, once for each instruction set: it computes all
+// alternatives before choosing.
 void importances_kernel(std::span<const float> packed, const LitPoint& at,
                         float* __restrict of_each) {
   const std::size_t count = packed.size() / packed_size;

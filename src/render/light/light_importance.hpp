@@ -1,8 +1,7 @@
-// What a light, or a group of them, contributes to a point, as far as bounds tell.
+// Estimates what a light, or a group of lights, contributes to a point, from bounds.
 //
-// The estimate is an unoccluded irradiance, so that a choice by it does not depend on the unit of
-// length. The bounds of a group are those of Pharr et al., Physically Based Rendering (4th ed.),
-// 12.6.3.
+// The estimate is an unoccluded irradiance, so choices by it do not depend on the unit of length.
+// The bounds of a group are those of Pharr et al., Physically Based Rendering (4th ed.), 12.6.3.
 #pragma once
 
 #include <pah/geometry/aabb.hpp>
@@ -17,8 +16,8 @@ struct LitPoint {
   bool transmits = false;  // light from behind counts too
 };
 
-// Where a light, or a group of them, is, and where it shines: at angles up to theta_o from the
-// axis in full, fading within a further theta_e.
+// The bounds of a light or a group: its box, and its cone of emission, which is full up to theta_o
+// from the axis and fades within a further theta_e.
 struct LightBounds {
   Aabb box;
   Vec3 axis{0, 0, 1};
@@ -28,7 +27,7 @@ struct LightBounds {
   float intensity = 0;  // W/sr at the brightest, mean of the channels
 };
 
-// Of a light without a size at `position`; angles in radians.
+// Bounds a light without a size at `position`; angles in radians.
 [[nodiscard]] LightBounds point_bounds(const Vec3& position, const Vec3& axis, double theta_o,
                                        double theta_e, float intensity);
 
@@ -42,16 +41,16 @@ struct DistantBounds {
 // `angle` is half of its cone's, in radians; pi: light from everywhere.
 [[nodiscard]] DistantBounds distant_bounds(const Vec3& axis, float angle, float irradiance);
 
-// Upper bounds in shape, estimates in size: zero only where nothing arrives. W/m2.
+// Estimates the irradiance in W/m2; zero only where no light arrives.
 [[nodiscard]] float importance(const LightBounds& bounds, const LitPoint& at);
 [[nodiscard]] float importance(const DistantBounds& bounds, const LitPoint& at);
 
-// What the estimate needs of a light's bounds, this many numbers. Those of several lights are kept
-// number by number, each that of all lights side by side.
+// The number of floats that the estimate needs of a light's bounds. For several lights they are
+// stored as a structure of arrays.
 inline constexpr std::size_t packed_size = 12;
 void pack(const LightBounds& bounds, std::size_t index, std::span<float> packed);
 
-// The same as one by one, to the last bit.
+// Computes importance() for several lights at once, with the same bits.
 void importances(std::span<const float> packed, const LitPoint& at, float* __restrict of_each);
 
 }  // namespace pah

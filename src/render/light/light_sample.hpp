@@ -1,4 +1,4 @@
-// What sampling a light returns.
+// A sample of a light.
 #pragma once
 
 #include <cmath>

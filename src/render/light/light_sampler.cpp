@@ -11,11 +11,11 @@ namespace {
 
 using std::numbers::pi_v;
 
-// So few lights are weighed one by one. More are divided into groups, and those again until they
-// are small, so that some are ruled out as a whole.
+// Up to few_lights are weighed one by one. More lights are divided into groups, and these again
+// until they are small, so that whole groups can be ruled out.
 constexpr std::size_t few_lights = 64, small_group = 16, most_groups = 8;
 
-// Past a depth that no sane set of lights reaches groups are halved.
+// Beyond this depth, which ordinary sets of lights never reach, groups are halved.
 constexpr int max_unbalanced_depth = 16;
 
 constexpr std::uint32_t not_a_leaf = 0xFFFFFFFFU;
@@ -56,8 +56,8 @@ LightBounds unite(const LightBounds& a, const LightBounds& b) {
   return united;
 }
 
-// What a node costs, by the surface area orientation heuristic. Points in a row span no area, so a
-// little of the longest side counts as well.
+// The cost of a node by the surface area orientation heuristic. A part of the longest side is
+// added, because points in a row span no surface.
 double split_cost(const LightBounds& bounds) {
   const double theta_o = std::acos(std::clamp(static_cast<double>(bounds.cos_theta_o), -1.0, 1.0));
   const double theta_e = std::acos(std::clamp(static_cast<double>(bounds.cos_theta_e), -1.0, 1.0));
@@ -73,8 +73,8 @@ double split_cost(const LightBounds& bounds) {
   return static_cast<double>(bounds.intensity) * orientation * area;
 }
 
-// Sorts lights in two and tells how many are in the first part: at the best of some planes across
-// the boxes' centers, in halves where all centers agree.
+// Partitions lights at the best of some planes across the boxes' centers, or in halves if all
+// centers agree. Returns the size of the first part.
 std::size_t split(std::span<LightSampler::Placed> lights) {
   constexpr int bucket_count = 12;
   Aabb centers;
@@ -131,7 +131,7 @@ LightSampler::LightSampler(std::vector<Placed> placed, std::vector<Distant> dist
   add_children(0, placed, 0);
 }
 
-// Splits the costliest group until there are as many as a node has.
+// Splits the costliest group until a node has its full number of children.
 void LightSampler::add_children(std::uint32_t parent, std::span<Placed> lights, int depth) {
   struct Group {
     std::span<Placed> lights;
@@ -214,7 +214,7 @@ std::optional<LightChoice> LightSampler::choose(const LitPoint& at, float u) con
   for (const Distant& light : distant_) total += importance(light.bounds, at);
   if (!(total > 0)) return std::nullopt;
 
-  // Walk through the estimates laid end to end; the last positive one catches rounding.
+  // Searches the prefix sums of the estimates; the last positive one catches rounding.
   float remaining = u * total;
   LightChoice choice;
   for (const Distant& light : distant_) {
@@ -260,7 +260,7 @@ float LightSampler::probability(const LitPoint& at, LightId light) const {
   if (leaf == not_a_leaf) return 0;
   float probability = 1;
   for (;;) {
-    // The one of the cut that holds the light.
+    // The node of the cut that holds the light.
     std::uint32_t holder = leaf;
     float value = 0;
     for (std::uint32_t index = leaf; index != 0 && value == 0; index = nodes_[index].parent) {

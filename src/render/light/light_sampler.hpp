@@ -1,11 +1,11 @@
-// Which light to ask: in proportion to an estimate of what each contributes at the shading point.
+// Chooses a light in proportion to its estimated contribution at the shading point.
 //
-// Lights with a place stand in a tree whose nodes bound them. One estimate for a group is a poor
-// guide where few of its lights reach a point, as spots do: it draws groups of which none does. So
-// groups are opened until no more fit in a small list, and only then one is drawn: few lights, and
-// those of many that are left once groups out of reach are ruled out, are each weighed by
-// themselves. After Conty Estevez & Kulla, "Importance Sampling of Many Lights with Adaptive Tree
-// Splitting" (HPG 2018).
+// Lights with a position are in a tree whose nodes bound them. A single estimate for a group is
+// poor if few of its lights reach the point, as with spots: it would choose groups none of whose
+// lights does. So groups are opened until a small list is full, and one entry is then chosen. Few
+// lights are thus weighed individually, and so are the remaining lights of many once groups out of
+// reach are ruled out. After Conty Estevez & Kulla, "Importance Sampling of Many Lights with
+// Adaptive Tree Splitting" (HPG 2018).
 #pragma once
 
 #include <array>
@@ -35,15 +35,15 @@ class LightSampler {
   };
 
   LightSampler() = default;
-  // Lights without power are left out by the caller; each light occurs once, ids below `lights`.
+  // The caller leaves out lights without power. Each light occurs once; ids are below `lights`.
   LightSampler(std::vector<Placed> placed, std::vector<Distant> distant, std::size_t lights);
 
   [[nodiscard]] bool empty() const { return distant_.empty() && nodes_.size() <= 1; }
 
-  // The light to ask where there is no choice, or no_light.
+  // The light if there is only one, else no_light.
   [[nodiscard]] LightId only() const { return only_; }
 
-  // Nothing where no light is estimated to contribute. u in [0, 1).
+  // Returns nothing if no light is estimated to contribute. u is in [0, 1).
   [[nodiscard]] std::optional<LightChoice> choose(const LitPoint& at, float u) const;
   [[nodiscard]] float probability(const LitPoint& at, LightId light) const;
 
@@ -56,7 +56,7 @@ class LightSampler {
     std::uint32_t child_count = 0;  // 0 marks a leaf
     LightId light = no_light;
   };
-  // Nodes below another that together hold each of its lights that may reach a point.
+  // Nodes below another node that together hold all of its lights that may reach a point.
   struct Cut {
     std::array<std::uint32_t, most_in_cut> nodes;
     std::array<float, most_in_cut> importances;  // 0 where the node's children are listed instead
@@ -65,7 +65,7 @@ class LightSampler {
   };
 
   void add_children(std::uint32_t parent, std::span<Placed> lights, int depth);
-  // Groups are opened breadth first, as far as there is room.
+  // Opens groups breadth first, as far as the list has room.
   [[nodiscard]] Cut cut_below(std::uint32_t node, const LitPoint& at) const;
 
   LightId only_ = no_light;  // if there is just one, there is nothing to choose

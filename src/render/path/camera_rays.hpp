@@ -1,4 +1,4 @@
-// Rays from the camera through a pixel.
+// Generates rays from the camera through a pixel.
 #pragma once
 
 #include <pah/geometry/ray.hpp>
@@ -9,7 +9,7 @@
 
 namespace pah {
 
-// A ray of unit direction and the cone that its pixel fills about it: Akenine-Moeller et al.,
+// A ray of unit direction and the cone that its pixel fills around it: Akenine-Moeller et al.,
 // "Texture Level of Detail Strategies for Real-Time Ray Tracing" (Ray Tracing Gems, 2019).
 struct CameraRay {
   Ray ray;
@@ -24,17 +24,18 @@ class CameraRays {
   // The filter is importance-sampled: every sample belongs to its pixel, with weight 1.
   [[nodiscard]] CameraRay generate(int x, int y, NumberReader& numbers) const;
 
-  // How many of the numbers that takes.
+  // The number of random dimensions that generate() uses.
   [[nodiscard]] std::uint32_t dimensions() const { return aperture_radius_ > 0 ? 2 : 1; }
 
-  // Through the centers of the pixel and of the lens.
+  // The ray through the centers of the pixel and of the lens.
   [[nodiscard]] Ray central(int x, int y) const;
 
-  // The way back, in homogeneous coordinates: (x, y) / w is where a point is in the picture, in
-  // pixels, and z how far along the axis. w is z if perspective, else 1; such rays meet z > 0 only.
+  // Projects a point to homogeneous coordinates: (x, y) / w is its position in the picture, in
+  // pixels, and z its distance along the axis. w is z for perspective cameras, else 1. Camera rays
+  // meet z > 0 only.
   [[nodiscard]] Vec4 project(const Vec3& point) const;
 
-  // A length, at w = 1.
+  // The width of a pixel at w = 1, as a length.
   [[nodiscard]] float pixel_width() const { return 2 * half_height_ / height_; }
 
  private:

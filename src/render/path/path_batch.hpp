@@ -1,5 +1,5 @@
-// The paths of a tile, advancing together, and the arrays they need: made once a thread, so that
-// nothing is allocated while rays are traced.
+// The paths of a tile, which advance together, and their arrays. Each thread makes them once, so
+// that nothing is allocated while rays are traced.
 #pragma once
 
 #include <pah/geometry/ray.hpp>
@@ -11,12 +11,12 @@
 
 namespace pah {
 
-// A path through so many masked surfaces in a row is stuck between two of them.
+// A path through this number of masked surfaces in a row is stuck between two of them.
 inline constexpr std::uint32_t most_passes = 4096;
 
 inline bool is_black(const Vec3& color) { return color == Vec3(0); }
 
-// One path under way. Its ray is in PathBatch::rays at the same place.
+// A path. Its ray is in PathBatch::rays at the same index.
 struct Path {
   Sampler sampler{0, 0, 0, 0};
   std::uint32_t slot = 0;  // its sample in PathBatch::samples
@@ -31,7 +31,7 @@ struct Path {
   bool features_found = false;  // albedo and normal are known
 };
 
-// What a path brings home.
+// The result of a path.
 struct PathSample {
   Vec3 radiance{0};
   Vec3 albedo{0};
@@ -39,7 +39,7 @@ struct PathSample {
   float depth = -1;  // of the first surface; < 0: none
 };
 
-// What arrives if a shadow segment meets nothing.
+// The contribution of a shadow segment if it is not occluded.
 struct ShadowTask {
   Vec3 contribution{0};
   std::uint32_t slot = 0;
@@ -64,7 +64,7 @@ struct PathBatch {
   std::vector<PathSample> samples;
   std::size_t active = 0;
 
-  // As gathered, then grouped by bundle.
+  // As gathered; below, sorted by bundle.
   std::vector<Ray> shadow_rays;
   std::vector<ShadowTask> shadow_tasks;
   std::vector<Ray> sorted_rays;

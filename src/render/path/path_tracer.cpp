@@ -8,8 +8,8 @@
 
 namespace pah {
 
-// A surface as its material makes it at one point, seen from one direction. It is made in place:
-// what is copied right after it was written is waited for.
+// A surface with its material at one point, seen from one direction. Built in place: copying a
+// struct right after writing it stalls on store-to-load forwarding.
 struct Scattering {
   Bsdf bsdf;
   ShadingFrame frame;
@@ -22,7 +22,7 @@ struct Scattering {
   Vec3 surface;       // the surface's own normal: that of the facet or of what it stands for
   LitPoint lit;
 
-  // Whether the normals agree on what is reflected and what passes through.
+  // Returns whether both normals agree that the light is reflected, or that it passes through.
   [[nodiscard]] bool consistent(const Vec3& world_wi, const Vec3& wi) const {
     const bool reflects = wo.z * wi.z > 0;
     const auto agrees = [&](const Vec3& normal) {
@@ -30,7 +30,7 @@ struct Scattering {
     };
     return agrees(surface) && (lifted || agrees(from.normal));
   }
-  // The side of the facet on which light that goes on towards world_wi does so.
+  // The side of the facet on which light towards world_wi leaves.
   [[nodiscard]] const Vec3& side(const Vec3& world_wi, const Vec3& wi) const {
     return wo.z * wi.z > 0 ? world_wo : world_wi;
   }
@@ -38,7 +38,7 @@ struct Scattering {
 
 namespace {
 
-// Groups of shadow segments beyond this many hold several lights.
+// Beyond this number, several lights share a group of shadow segments.
 constexpr std::size_t most_keys = 4096;
 
 // Veach's power heuristic with exponent 2; safe for infinite densities.
@@ -48,7 +48,7 @@ float power_heuristic(float own, float other) {
   return 1 / (1 + ratio * ratio);
 }
 
-// Field by field: a copy as a whole would wait for the fields, which are hardly written.
+// Copied field by field: a copy of the whole struct would stall on the fields written just before.
 void assign(Ray& to, const Ray& from) {
   to.origin = from.origin;
   to.t_max = from.t_max;
@@ -62,8 +62,8 @@ bool acceptable(const Vec3& color) {
          color.z >= 0;
 }
 
-// The footprint of a ray's cone on a surface, in texture coordinates: the ellipse's axes averaged
-// geometrically.
+// The footprint of a ray's cone on a surface, in texture coordinates: the geometric mean of the
+// ellipse's axes.
 float footprint_on(const SurfaceInteraction& at, const Vec3& direction, float width) {
   const float cosine = std::abs(glm::dot(at.point.normal, direction));
   return cosine > 0 ? at.uv_per_length * width / std::sqrt(cosine) : 0;
@@ -72,7 +72,7 @@ float footprint_on(const SurfaceInteraction& at, const Vec3& direction, float wi
 Scattering scatter_at(const World& world, const TextureStore& textures, const Hit& hit,
                       const SurfaceInteraction& at, const Vec3& wo, float footprint) {
   const Material& material = world.materials[at.surface->material];
-  // Light that passes through must start at the facet, lest it meet it again.
+  // Light that passes through must start at the facet, or it would hit the facet again.
   const bool curved = at.curved && !std::holds_alternative<GlassMaterial>(material.model);
   const float lift = curved ? at.lift(wo) : 0;
   const Vec3 surface = curved ? visible_normal(at.normal, at.point.normal, wo) : at.point.normal;
@@ -193,7 +193,7 @@ void PathTracer::intersect(PathBatch& batch, RayKind kind) const {
   batch.counts.rays[static_cast<std::size_t>(kind)] += batch.active;
 }
 
-// Survivors move up, so that the next rays are again without gaps.
+// Compacts the surviving paths, so that the next rays have no gaps.
 void PathTracer::shade(PathBatch& batch) const {
   std::size_t kept = 0;
   batch.shadows = 0;
@@ -254,8 +254,8 @@ bool PathTracer::shade_path(Path& path, Ray& ray, const Hit& hit, NumberReader& 
   return scatter(path, ray, scattering, numbers);
 }
 
-// How much of the light that a ray met by chance counts, given that next-event estimation might
-// have sent it: `light_pdf` is the density of that, were this light chosen.
+// The MIS weight of light that a ray met by BSDF sampling. `light_pdf` is the density with which
+// next-event estimation samples the same direction once it has chosen this light.
 float PathTracer::emission_weight(const Path& path, float light_pdf, LightId light) const {
   if (path.bsdf_pdf == 0 || settings_.strategy == Strategy::bsdf) return 1;
   if (settings_.strategy == Strategy::nee) return 0;
@@ -283,7 +283,8 @@ void PathTracer::add_emission(const Path& path, const Ray& ray, const Hit& hit,
   sample.radiance += path.throughput * radiance * emission_weight(path, pdf, light);
 }
 
-// Next-event estimation: one light, one direction, one segment to be resolved with the others.
+// Next-event estimation: chooses one light and one direction, and adds one shadow segment to the
+// batch.
 void PathTracer::gather_shadow(const Path& path, const Scattering& scattering,
                                NumberReader& numbers, PathBatch& batch) const {
   if (lights_.sampler().empty()) return;
@@ -332,7 +333,7 @@ bool PathTracer::scatter(Path& path, Ray& ray, const Scattering& scattering,
   const Vec2 u2 = numbers.next_2d();
   const auto drawn = sample(scattering.bsdf, scattering.wo, u, u2);
   if (!drawn) return false;
-  // Past the last interaction a ray is worth sending only for the light that it may meet.
+  // After the last interaction a ray matters only if it may meet a light.
   if (path.depth >= settings_.max_depth) {
     const bool counts = drawn->specular || settings_.strategy != Strategy::nee;
     if (!counts || !lights_.any_visible()) return false;
@@ -351,8 +352,8 @@ bool PathTracer::scatter(Path& path, Ray& ray, const Scattering& scattering,
     const float eta = scattering.wo.z > 0 ? glass->eta : 1 / glass->eta;
     path.eta_scale *= eta * eta;
   }
-  // A scattered ray stands for the directions near it: a quarter of the angle that its density
-  // spans, as seen from the surface.
+  // A scattered ray represents the directions near it: its cone gets a quarter of the angle that
+  // its density spans.
   if (textured_ && !drawn->specular) {
     path.cone_spread += 0.25F / std::sqrt(std::numbers::pi_v<float> * drawn->pdf);
   }

@@ -16,11 +16,11 @@ namespace pah {
 
 class PathTracer {
  public:
-  // Everything referred to must outlive the tracer.
+  // All references must outlive the tracer.
   PathTracer(const World& world, const Accelerator& accelerator, const TextureStore& textures,
              const FilmSettings& film, const RenderSettings& settings, bool count_traversal);
 
-  // Arrays for `capacity` paths.
+  // Makes arrays for `capacity` paths.
   [[nodiscard]] PathBatch make_batch(std::size_t capacity) const;
 
   // Adds the samples [first, first + count) of every pixel of a tile to the film. Thread-safe for
@@ -34,7 +34,7 @@ class PathTracer {
   void resolve_shadows(PathBatch& batch) const;
   void accumulate(const PixelRect& tile, int count, PathBatch& batch, Film& film) const;
 
-  // Whether the path goes on; `ray` is then its next one.
+  // Returns whether the path continues; `ray` is then its next ray.
   [[nodiscard]] bool shade_path(Path& path, Ray& ray, const Hit& hit, NumberReader& numbers,
                                 PathBatch& batch) const;
   void add_distant(const Path& path, const Ray& ray, PathSample& sample) const;

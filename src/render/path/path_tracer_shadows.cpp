@@ -1,4 +1,4 @@
-// The shadow segments of a batch: grouped by light, resolved together.
+// Sorts the shadow segments of a batch by light and resolves them together.
 #include <algorithm>
 
 #include "render/bsdf/material_eval.hpp"
@@ -18,7 +18,7 @@ std::uint32_t PathTracer::key_of(std::uint32_t bundle) const {
   return static_cast<std::uint32_t>(static_cast<std::uint64_t>(bundle) * keys_ / lights_.size());
 }
 
-// A stable counting sort by bundle: segments to one light meet one structure.
+// A stable counting sort by bundle, so that the segments to one light use one structure.
 void PathTracer::sort_shadows(PathBatch& batch) const {
   std::fill(batch.key_ends.begin(), batch.key_ends.end(), 0);
   for (std::size_t i = 0; i < batch.shadows; ++i) {
@@ -57,7 +57,7 @@ void PathTracer::resolve_shadows(PathBatch& batch) const {
   }
 }
 
-// Where surfaces may let light through in part: from hit to hit, each taking its share.
+// Used if surfaces may be partly transparent: goes from hit to hit, and each takes its share.
 void PathTracer::attenuate_shadows(PathBatch& batch) const {
   for (std::uint32_t round = 0; batch.shadows > 0 && round < most_passes; ++round) {
     accelerator_.closest_hit({batch.shadow_rays.data(), batch.shadows},

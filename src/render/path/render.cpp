@@ -19,7 +19,7 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-// Tells the caller how far a render is, some ten times a second, from whichever thread is there.
+// Reports progress to the caller about ten times a second, from any thread.
 class Reporter {
  public:
   Reporter(const RenderOptions& options, Clock::time_point start, double total_samples)
@@ -59,14 +59,14 @@ class Reporter {
   double last_ = 0;
 };
 
-// What a render has taken so far, in seconds: in all, and by its passes alone.
+// The seconds of a render so far: in total, and in its passes alone.
 struct Spent {
   double total = 0, passes = 0;
 };
 
-// The samples of the next pass: few at first, so that a whole picture is there soon, then as many
-// as a batch holds; no more than a pass may take at the rate so far, nor than the time left allows,
-// perhaps none.
+// Returns the samples of the next pass: few at first, so that a complete picture exists soon, then
+// as many as a batch holds. The rate so far limits them to the longest pass allowed and to the
+// remaining time; the result may be 0.
 int next_pass(int finished, int samples, const Spent& spent, const RenderOptions& options) {
   int count = std::min({std::max(1, finished), RenderSession::batch_samples, samples - finished});
   if (finished == 0) return count;
@@ -80,7 +80,7 @@ int next_pass(int finished, int samples, const Spent& spent, const RenderOptions
   return count;
 }
 
-// What a pass that was stopped leaves to do.
+// Records the tiles that a stopped pass did not finish.
 void leave_behind(std::span<const std::size_t> tiles, std::span<const std::size_t> finished,
                   int count, FilmSamples& held) {
   std::vector<std::size_t> behind;
@@ -117,7 +117,7 @@ RenderResult render(const World& world, const Accelerator& accelerator, const Fi
   result.held = std::move(started.samples);
   FilmSamples& held = result.held;
   result.samples = held.to - held.from;
-  // A picture with holes would be of no use: every pixel gets one sample.
+  // Time is never up before every pixel has a sample, because a picture with holes is useless.
   const auto out_of_time = [&] {
     return options.time_limit > 0 && result.samples > 0 &&
            seconds_since(start) >= options.time_limit;

@@ -41,7 +41,7 @@ void add(RenderCounts& sum, const RenderCounts& other) {
   sum.nan_samples += other.nan_samples;
 }
 
-// More threads than processors are granted if asked for.
+// Lets oneTBB use more threads than processors if the caller asks for them.
 std::unique_ptr<tbb::global_control> allowance_for(int threads) {
   if (threads <= tbb::this_task_arena::max_concurrency()) return nullptr;
   return std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism,
@@ -54,7 +54,7 @@ void check_samples(int first, int count) {
                                 " samples from sample " + std::to_string(first) + " on");
 }
 
-// Two threads must never add to the same pixels.
+// Throws for a tile given twice: two threads would add to the same pixels.
 void check_tiles(std::span<const std::size_t> tiles, std::size_t count) {
   std::vector<bool> given(count);
   for (const std::size_t tile : tiles) {
@@ -85,7 +85,7 @@ struct RenderSession::Impl {
         arena(options.threads > 0 ? options.threads : tbb::task_arena::automatic),
         batches([this] { return tracer.make_batch(batch_capacity); }) {}
 
-  // How many rays it took.
+  // Traces a tile and returns the number of rays.
   std::uint64_t trace(std::size_t tile, int first_sample, int count) {
     PathBatch& batch = batches.local();
     const std::uint64_t rays_before = total(batch.counts.rays);

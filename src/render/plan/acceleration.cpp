@@ -98,7 +98,7 @@ Acceleration make_acceleration(const World& world, const Scene& settings, std::s
   }
   if (made.name == light) {
     use_grids(made, world, settings, !name.empty());
-    // With no grid it is nothing else.
+    // Without a grid the accelerator is a plain BVH.
     if (name.empty() && made.grids->reports().empty()) made.name = bvh;
   } else {
     made.grid_plans = plans_without_grids(

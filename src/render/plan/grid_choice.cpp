@@ -14,7 +14,7 @@
 namespace pah {
 namespace {
 
-// Least seconds a ray, of one thread, over some rounds.
+// The minimum time per ray on one thread, over some rounds.
 double seconds_a_ray(const Accelerator& accelerator, const std::vector<Ray>& rays) {
   using Clock = std::chrono::steady_clock;
   constexpr int rounds = 3;
@@ -56,7 +56,7 @@ std::uint64_t memory_left(const Accelerator& accelerator, const AccelerationSett
   return *settings.memory - std::min(taken, *settings.memory);
 }
 
-// Whether it pays or not.
+// Marks a grid to be built whether it pays or not, if memory allows.
 void ask_for(GridPlan& plan, std::uint64_t bytes, const GridCircumstances& at) {
   plan.build = bytes <= at.memory_left;
   plan.reason = plan.build ? "asked for" : "it takes more memory than the scene allows";

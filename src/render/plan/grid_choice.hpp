@@ -1,4 +1,4 @@
-// Which lights have grids: decided by what a few rays cost.
+// Decides which lights get grids, by the cost of a few rays.
 #pragma once
 
 #include <pah/accel/light_grids.hpp>
@@ -10,11 +10,11 @@
 
 namespace pah {
 
-// Why no light is to have one, if that is clear before there is a BVH; else empty.
+// The reason why no light gets a grid, if that is clear without a BVH; else empty.
 [[nodiscard]] std::string_view no_grids(const World& world, const Scene& settings);
 
-// Adds the grids that pay, the best first, or all that are possible, as long as memory lasts. A
-// plan for each light that may have one.
+// Adds the grids that pay, the best first, or all possible ones, as far as memory allows. Returns a
+// plan for each light that may have a grid.
 std::vector<GridPlan> add_grids(LightGrids& grids, const World& world, const Scene& settings,
                                 bool all);
 [[nodiscard]] std::vector<GridPlan> plans_without_grids(const World& world,

@@ -11,11 +11,12 @@
 namespace pah {
 namespace {
 
-// Neighboring pixels share memory, as in a render, so there are squares of them, spread evenly.
+// The pilot uses evenly spread squares of pixels, because neighboring pixels share cache lines, as
+// in a render.
 constexpr int squares_across = 6;
 constexpr int square_size = 12;  // pixels
 constexpr int most_surfaces = 3;
-// Where there are many lights, each gets fewer rays than there are points.
+// With many lights, each gets fewer rays than there are points.
 constexpr std::size_t most_rays = std::size_t{1} << 17U;
 
 class Random {

@@ -1,4 +1,4 @@
-// A few paths before a picture: what its shadow rays are like, and how many there will be.
+// Traces a few paths before a render, to learn the kind and number of its shadow rays.
 #pragma once
 
 #include <pah/accel/accelerator.hpp>
@@ -20,8 +20,8 @@ struct PilotRays {
   double expected = 0;  // in the whole render
 };
 
-// Of each light. Surfaces are taken for white and diffuse, and lights to get equal shares: no
-// texture is read, and no material asked. The same for the same scene.
+// Returns the rays to each light; the same for the same scene. Surfaces count as white and diffuse,
+// and lights get equal shares, so no texture and no material is read.
 [[nodiscard]] std::vector<PilotRays> pilot_rays(const World& world, const Scene& settings,
                                                 const Accelerator& accelerator,
                                                 const std::vector<PilotLight>& lights);

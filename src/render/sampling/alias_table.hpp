@@ -1,4 +1,4 @@
-// Choosing from a fixed list of weights in constant time: Walker's alias method, as built by Vose
+// Chooses from a fixed list of weights in constant time: Walker's alias method, as built by Vose
 // ("A Linear Algorithm For Generating Random Numbers With a Given Distribution", 1991).
 #pragma once
 

@@ -3,7 +3,7 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "render/sampling/drawn_numbers.cpp"
 #include <hwy/foreach_target.h>
-// foreach_target.h comes first.
+// highway.h must follow foreach_target.h.
 #include <hwy/highway.h>
 
 HWY_BEFORE_NAMESPACE();
@@ -11,8 +11,8 @@ namespace pah {
 namespace HWY_NAMESPACE {
 namespace {
 
-// In scalars: this is compiled to vectors, and once for each instruction set. Dimension by
-// dimension, with a row of `lanes` numbers for each.
+// Scalar code that the compiler vectorizes, once for each instruction set. It fills one row of
+// `lanes` numbers for each dimension.
 void draw_kernel(const std::uint64_t* __restrict stream,
                  const std::uint32_t* __restrict reversed_index,
                  const std::uint32_t* __restrict first, std::size_t dimensions, float* __restrict x,

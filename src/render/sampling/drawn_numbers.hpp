@@ -1,4 +1,4 @@
-// The next dimensions of several samplers, drawn side by side.
+// Draws the next dimensions of several samplers at once.
 #pragma once
 
 #include <array>
@@ -12,13 +12,13 @@ class DrawnNumbers {
  public:
   static constexpr std::size_t lanes = 16, most_dimensions = 8;
 
-  // The sampler that lane i draws from. A lane without one draws what nobody wants.
+  // Sets the sampler of a lane. Unused lanes draw numbers that are ignored.
   void set(std::size_t lane, const Sampler& sampler) {
     stream_[lane] = sampler.stream_;
     reversed_index_[lane] = sampler.reversed_index_;
     dimension_[lane] = sampler.dimension_;
   }
-  // The next `dimensions` of every lane's sampler, at most `most_dimensions`.
+  // Draws the next `dimensions` of every lane's sampler, at most `most_dimensions`.
   void draw(std::size_t dimensions);
 
   [[nodiscard]] float x(std::size_t dimension, std::size_t lane) const {
@@ -46,7 +46,7 @@ class NumberReader {
 
   [[nodiscard]] float next_1d() { return numbers_.x(used_++, lane_); }
   [[nodiscard]] Vec2 next_2d() { return numbers_.point(used_++, lane_); }
-  // The dimensions that were taken, which the sampler is to skip.
+  // The number of dimensions read, which the sampler must skip.
   [[nodiscard]] std::uint32_t used() const { return used_; }
 
  private:

@@ -11,7 +11,7 @@ namespace pah {
 
 namespace owen {
 
-// Inlined into loops over samplers, which are compiled to vectors.
+// These are inlined into loops over samplers, which the compiler vectorizes.
 
 template <typename Word>
 [[nodiscard, gnu::always_inline]] inline Word reverse_bits(Word x) {
@@ -97,7 +97,7 @@ class Sampler {
     return {owen::fraction(static_cast<std::uint32_t>(both)),
             owen::fraction(static_cast<std::uint32_t>(both >> 32U))};
   }
-  // Past dimensions that were drawn otherwise, or that nobody wants.
+  // Skips dimensions that were drawn elsewhere or are not needed.
   void skip(std::uint32_t dimensions) { dimension_ += dimensions; }
 
  private:

@@ -1,5 +1,5 @@
-// Sampling a triangle as seen from a point, uniformly in solid angle where that is well
-// conditioned and uniformly in area elsewhere.
+// Samples a triangle as seen from a point: uniformly in solid angle where that is well conditioned,
+// uniformly over its surface elsewhere.
 #pragma once
 
 #include <pah/geometry/triangles.hpp>

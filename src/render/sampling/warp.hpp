@@ -1,4 +1,4 @@
-// Uniform numbers in [0, 1)^2 to directions and points, each with its density. z is up.
+// Maps uniform numbers in [0, 1)^2 to directions and points, each with its density. z is up.
 #pragma once
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// A point of a surface as a ray met it, and rays from there to lights, as a render sends them.
+// A point of a surface that a ray met, and rays from it to lights, as a render sends them.
 #pragma once
 
 #include <pah/geometry/exact_bundle.hpp>
@@ -16,7 +16,8 @@ struct SeenPoint {
 // `hit` is valid.
 [[nodiscard]] SeenPoint seen_point(const World& world, const Ray& ray, const Hit& hit);
 
-// Whether the light is on that side, and the point within its cone, whatever is in between.
+// Returns whether the light is on that side and the point within the light's cone, without regard
+// to occlusion.
 [[nodiscard]] bool is_lit(const SeenPoint& at, const ExactBundle& light);
 
 // `lean`, in the unit disk, is where in a light of some size the ray ends; zero is its center.

@@ -1,11 +1,11 @@
-// Orthonormal bases about a normal.
+// Orthonormal bases around a normal.
 #pragma once
 
 #include <pah/geometry/basis.hpp>
 
 namespace pah {
 
-// Right-handed; z is the normal. Local directions are what BSDFs speak.
+// A right-handed basis whose z is the normal. BSDFs use its local directions.
 struct ShadingFrame {
   Vec3 x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1};
 

@@ -1,4 +1,4 @@
-// Rays that start and end on surfaces without meeting them again: error bounds carried along, never
+// Makes rays that start and end on surfaces without meeting them again, by error bounds instead of
 // a constant epsilon. After Pharr, Jakob & Humphreys, Physically Based Rendering (4th ed.), 6.8.
 #pragma once
 

@@ -1,4 +1,4 @@
-// Where a ray met a surface, and all that shading wants to know of the place.
+// The point where a ray met a surface, with everything that shading needs.
 #pragma once
 
 #include <pah/scene/world.hpp>
@@ -33,10 +33,10 @@ struct SurfaceInteraction {
 
 [[nodiscard]] SurfaceInteraction interact(const World& world, const Hit& hit);
 
-// Only what an opacity mask needs.
+// Texture coordinates alone, for opacity masks.
 [[nodiscard]] Vec2 uv_at(const World& world, std::uint32_t triangle, const Vec2& barycentrics);
 
-// Black to white and beyond, as the mesh has it; white where it has no colors.
+// The interpolated color of the mesh, which may exceed 1; white if it has no colors.
 [[nodiscard]] Vec3 vertex_color_at(const World& world, const Hit& hit);
 
 // A shading normal seen from the same side as the geometry: where `wo` would lie behind it, it is

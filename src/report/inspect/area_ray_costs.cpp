@@ -14,7 +14,7 @@ struct AskedRays {
   [[nodiscard]] std::size_t size() const { return nearest.size() + any.size(); }
 };
 
-// Those of a row of pixels, by area.
+// Collects the rays of a row of pixels, by area.
 std::vector<AskedRays> rays_of(const World& world, const LocalBvhs& local, std::size_t areas,
                                const CameraRays& camera_rays, int width, int row) {
   std::vector<AskedRays> asked(areas);
@@ -35,7 +35,7 @@ std::vector<AskedRays> rays_of(const World& world, const LocalBvhs& local, std::
   return asked;
 }
 
-// Of all rays together.
+// Adds the costs of all rays.
 template <typename NearestHits, typename AnyHits>
 double cost_of(const AskedRays& rays, const NearestHits& nearest_hits, const AnyHits& any_hits) {
   TraversalCounts counts;

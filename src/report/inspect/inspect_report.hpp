@@ -1,4 +1,4 @@
-// What `pahrender inspect` tells of a scene's BVHs and grids, for people and for tools.
+// The report of `pahrender inspect` on a scene's BVHs and grids, for people and for tools.
 #pragma once
 
 #include <cstdint>
@@ -14,28 +14,27 @@
 
 namespace pah {
 
-// How siblings overlap as an influence area's bundle sees them: pah/accel/trees.hpp.
+// The overlap of siblings as the bundle of an influence area sees it (pah/accel/trees.hpp).
 struct SeenOverlap {
   std::vector<double> levels;  // means over the inner nodes of each
   double all = 0;              // mean over all
 };
 [[nodiscard]] SeenOverlap seen_overlaps(const BinaryTree& tree, const InfluenceArea& area);
 
-// Expected, of a ray of an influence area's bundle, whether it meets any box or not.
+// The expected costs of any ray of an influence area's bundle.
 struct BundleCosts {
   double local = 0;   // in the area's own BVH
   double global = 0;  // in that of the whole scene
 };
 
-// The tree's measures and its cost are those of `heuristic`, or for a local BVH those of its
-// bundle.
+// The tree is measured by surface area, or a local BVH by the hit probability of its bundle.
 struct BvhReport {
   std::string name;
   std::string heuristic;
-  TreeSummary tree;                        // as it was built, with two children a node
-  std::uint64_t wide_nodes = 0;            // as it is traversed, with up to eight
-  double expected_cost = 0;                // so, of a ray that meets the root's box
-  double surface_cost = 0;                 // the same, of rays from everywhere (SAH)
+  TreeSummary tree;                        // as built, with two children a node
+  std::uint64_t wide_nodes = 0;            // as traversed, with up to eight children
+  double expected_cost = 0;                // of a traversal, for a ray that meets the root's box
+  double surface_cost = 0;                 // the same for rays from everywhere (SAH)
   std::optional<CostSummary> camera_rays;  // of the global BVH
   std::optional<BundleCosts> bundle;       // of a local BVH
   std::optional<AreaRayCosts> area_rays;   // of a local BVH
@@ -46,11 +45,11 @@ struct BvhReport {
 
 struct InspectReport {
   std::string version;
-  std::string scene;  // as it was named
+  std::string scene;  // the name on the command line
   int width = 0, height = 0;
   std::uint64_t triangles = 0;
   std::vector<BvhReport> bvhs;
-  std::string accelerator;  // that a render has
+  std::string accelerator;  // of a render
   std::vector<GridReport> light_grids;
 };
 

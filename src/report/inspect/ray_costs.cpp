@@ -16,7 +16,7 @@ PictureCosts measure_costs(const Bvh& bvh, const Camera& camera, const FilmSetti
   parallel_for(static_cast<std::size_t>(film.height), 1, [&](std::size_t row) {
     const int y = static_cast<int>(row);
     for (int x = 0; x < film.width; ++x) {
-      // By itself, so that the counts are its own.
+      // Traced alone, so that the counts are this ray's.
       const Ray ray = camera_rays.central(x, y);
       Hit hit;
       TraversalCounts counts;

@@ -1,4 +1,4 @@
-// What a BVH costs real rays: one through the center of every pixel.
+// Measures what camera rays cost in a BVH: one through the center of every pixel.
 #pragma once
 
 #include <cstdint>
@@ -27,7 +27,7 @@ struct CostSummary {
   std::uint32_t max_nodes = 0, max_triangles = 0;  // of one ray
 };
 
-// Of the whole picture, whatever its crop.
+// Measures the whole picture, without a crop.
 [[nodiscard]] PictureCosts measure_costs(const Bvh& bvh, const Camera& camera,
                                          const FilmSettings& film);
 

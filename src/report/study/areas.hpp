@@ -1,4 +1,4 @@
-// Which influence areas are studied of a mesh.
+// The influence areas that the study places around a mesh.
 #pragma once
 
 #include "report/study/study.hpp"
@@ -11,7 +11,7 @@ struct StudyArea {
   InfluenceArea area;
 };
 
-// Placed by the mesh's bounding sphere. They cut through the mesh, as areas of scenes do.
+// Places areas by the mesh's bounding sphere. They cut through the mesh, as areas of scenes do.
 [[nodiscard]] std::vector<StudyArea> study_areas(const Aabb& bounds, bool quick);
 
 }  // namespace pah

@@ -1,6 +1,6 @@
-// Experiments 2 and 4: the trees of all heuristics and all choices of axes, compared by what a
-// bundle's rays cost, and by the share of rays that must hit in the area: a ray
-// costs local + (1 - share) * global instead of global.
+// Experiments 2 and 4: compares the trees of all heuristics and choices of axes by the cost of a
+// bundle's rays, and by the share of rays that must hit in the area for it to pay: a ray costs
+// local + (1 - share) * global instead of global.
 #include <cmath>
 #include <ctime>
 #include <pah/bvh/analyze.hpp>
@@ -10,7 +10,7 @@
 namespace pah {
 namespace {
 
-// Of all threads, so that other programs do not slow it down.
+// Returns the CPU time of all threads, so that other programs do not count.
 double cpu_seconds() {
   return static_cast<double>(std::clock()) / static_cast<double>(CLOCKS_PER_SEC);
 }

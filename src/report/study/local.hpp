@@ -1,4 +1,4 @@
-// The local BVHs that are studied.
+// The local BVHs of the study.
 #pragma once
 
 #include "bvh/build.hpp"
@@ -8,7 +8,7 @@
 
 namespace pah {
 
-// A mesh and one of its areas, with everything that its trees have in common.
+// A mesh and one of its areas, with everything that all its trees share.
 struct StudySite {
   const StudyMesh& mesh;
   StudyArea area;
@@ -28,7 +28,7 @@ struct StudySite {
 
 [[nodiscard]] BuiltBvh build_local(const StudySite& site, const LocalConfig& config);
 
-// The experiments: what they find at one site.
+// The experiments at one site; each adds rows to the results.
 void study_prediction(const StudySite& site, StudyResults& results);
 void study_cost(const StudySite& site, const BuiltBvh& global,
                 std::span<const std::uint32_t> all_triangles, StudyResults& results);

@@ -1,4 +1,4 @@
-// Experiment 1: what a heuristic says a ray will cost, and what it does cost.
+// Experiment 1: compares the predicted cost of a ray with the counted one.
 #include <pah/bvh/analyze.hpp>
 #include <pah/influence/bundle_area.hpp>
 
@@ -11,13 +11,13 @@ double expected_by(const InfluenceArea& area, const BinaryTree& tree, const Buil
   return expected_cost(tree, config, each_box(HitProbability(area)));
 }
 
-// As if the bundle had no borders: all parallel rays, or all rays of half a sphere.
+// The cost for a bundle without borders: all parallel rays, or all rays of half a sphere.
 double expected_unclipped(const InfluenceArea& area, const BinaryTree& tree,
                           const BuildConfig& config) {
   if (const auto* plane = std::get_if<PlaneArea>(&area))
     return expected_cost(tree, config, each_box(ParallelBundleArea(glm::abs(plane->box.axes[2]))));
   PointArea wide = std::get<PointArea>(area);
-  // Such a pyramid lacks a thousandth of the half sphere.
+  // This pyramid misses a thousandth of the half sphere.
   wide.frustum.tan_half = DVec2(1e3);
   wide.frustum.near = 0;
   wide.frustum.far *= 1e3;

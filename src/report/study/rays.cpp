@@ -9,7 +9,7 @@ namespace {
 class Random {
  public:
   explicit Random(std::uint64_t seed) : engine_(seed) {}
-  // In [low, high). std::uniform_real_distribution differs between libraries.
+  // Returns a number in [low, high). std::uniform_real_distribution differs between libraries.
   double uniform(double low, double high) {
     return low + (high - low) * static_cast<double>(engine_() >> 11U) * 0x1p-53;
   }
@@ -32,7 +32,7 @@ BundleRay draw(const PointArea& area, Random& random) {
   const Frustum& frustum = area.frustum;
   for (;;) {
     const DVec2 at = random.in_rectangle(frustum.tan_half);
-    // Solid angle per area of the plane at distance 1 is cos^3, at most 1.
+    // Solid angle per surface area of the plane at distance 1 is cos^3, at most 1.
     const double density = std::pow(1 + glm::dot(at, at), -1.5);
     if (area.measure == PointMeasure::solid_angle && random.uniform(0, 1) >= density) continue;
     return {frustum.eye, frustum.axes * DVec3(at, 1), frustum.near, frustum.far};

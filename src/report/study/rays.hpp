@@ -1,4 +1,4 @@
-// Rays of a bundle, drawn at random.
+// Random rays of a bundle.
 #pragma once
 
 #include <pah/geometry/ray.hpp>
@@ -14,11 +14,11 @@ struct BundleRay {
   double near = 0, far = 1;
 };
 
-// Independent rays, uniform in the area's measure; the same for the same seed.
+// Draws independent rays, uniform in the area's measure; the same for the same seed.
 [[nodiscard]] std::vector<BundleRay> draw_rays(const InfluenceArea& area, std::uint64_t count,
                                                std::uint64_t seed);
 
-// The same as accelerators take it.
+// Converts it to the type that accelerators use.
 [[nodiscard]] Ray ray_of(const BundleRay& ray);
 
 }  // namespace pah

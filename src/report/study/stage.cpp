@@ -7,7 +7,7 @@
 namespace pah {
 namespace {
 
-// In double, as a float may not hold the extent.
+// In double, because the extent may exceed a float.
 glm::dmat4x3 on_the_floor(const Mesh& mesh) {
   Aabb box;
   for (const Vec3& position : mesh.positions) box.extend(position);

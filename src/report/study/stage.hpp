@@ -1,14 +1,16 @@
-// Somewhere to put a mesh that comes without a scene.
+// A scene for meshes that have none.
 #pragma once
 
 #include <pah/scene/scene.hpp>
 
 namespace pah {
 
-// A floor under a bulb and a sun, with a camera that looks at two meters above its middle.
+// Makes a floor under a bulb and a sun, and a camera that looks at a point two meters above the
+// floor's middle.
 [[nodiscard]] Scene make_stage();
 
-// Adds the mesh, two meters in its largest extent, in the middle of the floor. It needs an extent.
+// Adds the mesh in the middle of the floor, scaled to a largest extent of two meters. Its extent
+// must not be zero.
 void put_on_stage(Scene& stage, Mesh mesh);
 
 }  // namespace pah

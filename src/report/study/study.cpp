@@ -7,7 +7,7 @@
 namespace pah {
 namespace {
 
-// The sweep needs a build for each value: done where the heuristics differ most.
+// The sweep builds a tree for each value, so it uses only areas where the heuristics differ most.
 bool is_swept(const StudyArea& area, bool quick) {
   return area.name == "plane oblique" ||
          (!quick && (area.name == "plane y" || area.name == "plane 45" ||
@@ -33,7 +33,7 @@ StudyResults run_study(const std::vector<StudyMesh>& meshes, const StudyConfig& 
         progress((static_cast<double>(m) + done) / static_cast<double>(meshes.size()),
                  mesh.name + ", " + areas[a].name);
       }
-      // Areas of one mesh have rays of their own; the same area of two meshes may share them.
+      // Each area of a mesh has its own rays; the same area of two meshes may share them.
       const StudySite site = make_site(mesh, areas[a], config.rays, config.seed + a);
       study_prediction(site, results);
       if (!(results.predictions.back().measured > 0)) {

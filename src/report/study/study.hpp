@@ -1,7 +1,7 @@
-// The thesis's experiments, repeated over any meshes: how well the heuristics predict what rays
-// cost, and what the trees that they build cost. Costs are counted, in units of a box test
-// (build_config.hpp), so that they depend on the seed alone and never on the machine. Only build
-// times are measured, and the rates of accelerators.
+// Repeats the thesis's experiments over any meshes: how well the heuristics predict the cost of
+// rays, and how good the trees are that they build. Costs are counted in units of a box test
+// (build_config.hpp), so they depend on the seed alone, not on the machine. Only build times and
+// the rates of accelerators are measured.
 #pragma once
 
 #include <filesystem>
@@ -27,7 +27,7 @@ struct StudyConfig {
   bool quick = false;  // fewer areas
 };
 
-// How an area's rays lie to the axes of the boxes: results depend on little else.
+// The angle of an area's rays to the axes of the boxes, on which results mainly depend.
 enum class StudyGroup : std::uint8_t {
   plane_axis,     // parallel rays along an axis
   plane_15,       // 15 degrees off one
@@ -40,7 +40,7 @@ inline constexpr std::size_t study_groups = 6;
 [[nodiscard]] const char* name_of(StudyGroup group);
 [[nodiscard]] inline bool is_point(StudyGroup group) { return group >= StudyGroup::point_outside; }
 
-// Which tree a row is about.
+// The tree of a row.
 struct StudyCase {
   std::string mesh, area;
   StudyGroup group{};
@@ -49,31 +49,31 @@ struct StudyCase {
   SplitAxis split{};
 };
 
-// Expected cost of a ray that meets the root's box, by several measures of a box, beside the mean
+// The expected cost of a ray that meets the root's box, by several measures, and the counted mean
 // over rays of the bundle.
 struct PredictionRow {
   StudyCase tree;
   double measured = 0;        // every node that the ray meets within the region
   double standard_error = 0;  // of that mean
-  double closest = 0;         // what a search for the nearest hit visits of it
+  double closest = 0;         // the part that a search for the nearest hit visits
   double pah = 0;             // clipped to the region, in the measure that the rays are uniform in
   double pah_plane = 0;       // in the measure of the picture plane; the same for plane areas
   double pah_unclipped = 0;
   double sah = 0;
 };
 
-// What rays cost in the trees of one area.
+// The cost of rays in one tree of an area.
 struct CostRow {
   StudyCase tree;
-  // Of a ray that meets the root, in the binary tree as it was built.
+  // For a ray that meets the root, in the binary tree as built.
   double closest = 0;  // a search for the nearest hit
   double all = 0;      // every node that the ray meets within the region
-  // Of any ray, in the renderer's tree, whose nodes are eight wide.
+  // For any ray, in the renderer's tree with eight children a node.
   double kernel = 0;
   double hit_share = 0;      // of all rays of the bundle
-  double break_even = 0;     // the share that must hit lest the global BVH alone be cheaper
+  double break_even = 0;     // the share of rays that must hit for the local BVH to pay
   double build_seconds = 0;  // CPU time
-  double mean_depth = 0;     // of leaves, over the least that as many leaves can have
+  double mean_depth = 0;     // of leaves, relative to an even tree
   std::uint32_t max_depth = 0;
   double lopsided = 0;  // see TreeBalance
 };
@@ -87,7 +87,7 @@ struct SweepRow {
   double lopsided = 0;
 };
 
-// One measurement of one accelerator on the rays that a render of a scene asked.
+// One measurement of one accelerator on the rays of a render.
 struct RateRow {
   std::string scene;
   std::uint64_t triangles = 0;
@@ -99,7 +99,7 @@ struct RateRow {
   std::optional<double> nodes_per_ray, triangles_per_ray;  // of those that count
   double build_seconds = 0;                                // by all threads
   std::uint64_t bytes = 0;
-  std::uint64_t mismatches = 0;  // rays that are answered otherwise than by bvh
+  std::uint64_t mismatches = 0;  // rays whose answer differs from bvh's
 };
 
 struct StudyResults {
@@ -108,11 +108,11 @@ struct StudyResults {
   std::vector<CostRow> costs;
   std::vector<SweepRow> sweeps;
   std::vector<RateRow> rates;       // of measure_rates (rates.hpp)
-  std::uint64_t skipped_areas = 0;  // that no ray finds a triangle's box in
+  std::uint64_t skipped_areas = 0;  // in which no ray meets a triangle's box
 };
 
-// `progress(done, what)`, done in [0, 1], is called now and then. Meshes need an extent
-// and at least one triangle.
+// Runs the experiments. `progress(done, stage)`, with `done` in [0, 1], is called from time to
+// time. Meshes need an extent and at least one triangle.
 [[nodiscard]] StudyResults run_study(
     const std::vector<StudyMesh>& meshes, const StudyConfig& config,
     const std::function<void(double, const std::string&)>& progress = {});
@@ -124,7 +124,7 @@ struct StudyResults {
 [[nodiscard]] std::string rays_csv(const StudyResults& results);
 [[nodiscard]] std::string study_markdown(const StudyResults& results, bool with_plots);
 
-// Writes gnuplot's scripts into `folder` and runs them; false if there is no gnuplot that could.
+// Writes gnuplot scripts into `folder` and runs them; returns false if gnuplot is missing or fails.
 // Throws FileError.
 bool write_study_plots(const StudyResults& results, const std::filesystem::path& folder);
 

@@ -1,6 +1,6 @@
-// Experiment 3: one parameter of the build at a time, the others at their defaults. Rules for
-// leaves are for large ones: of small nodes cost alone makes leaves. The rule by area is left out:
-// it is that by chance, times an area that depends on the mesh.
+// Experiment 3: varies one build parameter at a time, with defaults for the others. Leaf rules are
+// swept with large leaves, because cost alone decides for small nodes. The rule by surface area is
+// left out: it equals the rule by chance, times a factor of the mesh.
 #include <limits>
 #include <pah/bvh/analyze.hpp>
 

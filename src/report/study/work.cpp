@@ -11,7 +11,7 @@
 namespace pah {
 namespace {
 
-// In double, so that what is counted is what areas are computed of. Closed boxes.
+// Computed in double, like the measures of boxes. Boxes are closed.
 bool meets(const BundleRay& ray, const Aabb& box) {
   double near = ray.near;
   double far = ray.far;

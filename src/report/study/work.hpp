@@ -1,4 +1,4 @@
-// Counts what rays cost in a tree.
+// Counts the cost of rays in a tree.
 #pragma once
 
 #include <pah/geometry/triangles.hpp>
@@ -10,7 +10,7 @@
 
 namespace pah {
 
-// A tree as the study traverses it. Item i is triangle subset[i].
+// A tree for the study's traversal. Item i is triangle subset[i].
 struct StudyTree {
   const BinaryTree& tree;
   Triangles triangles;
@@ -18,8 +18,8 @@ struct StudyTree {
   std::uint32_t side_by_side = 4;
 };
 
-// Over many rays. A node's cost is that of expected_cost: a leaf's triangles, or the boxes of two
-// children.
+// A sum over many rays. A node costs its triangles if it is a leaf, else the boxes of its two
+// children, as in expected_cost().
 struct Tally {
   std::uint64_t rays = 0;
   std::uint64_t met = 0;   // rays that meet the root
@@ -28,24 +28,24 @@ struct Tally {
   double cost_squared = 0;
 
   void add(const Tally& other);
-  // Of the rays that meet the root; 0 if there are none.
+  // The mean over rays that meet the root; 0 without any.
   [[nodiscard]] double mean() const;
   [[nodiscard]] double standard_error() const;
   [[nodiscard]] double mean_of_all() const;
   [[nodiscard]] double hit_share() const;
 };
 
-// Every node that a ray meets within its region, whatever it hits: what a heuristic predicts.
-// `hits` is not counted.
+// Counts every node that a ray meets within its region, whatever it hits. This is what a heuristic
+// predicts. Does not count `hits`.
 [[nodiscard]] Tally count_all(const StudyTree& tree, std::span<const BundleRay> rays);
 
-// The nodes that a search for the nearest hit visits, near child first. Beyond the region unless
-// `within_region`.
+// Counts the nodes that a search for the nearest hit visits, near child first; also beyond the
+// region unless `within_region`.
 [[nodiscard]] Tally count_closest(const StudyTree& tree, std::span<const BundleRay> rays,
                                   bool within_region = true);
 
-// The same by the renderer's kernels: one box cost for each node of up to eight children, one
-// triangle cost for every `side_by_side` triangles.
+// Returns the same cost by the renderer's kernels: one box cost for each node of up to eight
+// children, one triangle cost for every `side_by_side` triangles.
 [[nodiscard]] double kernel_cost(const Bvh& bvh, std::span<const BundleRay> rays,
                                  std::uint32_t side_by_side);
 

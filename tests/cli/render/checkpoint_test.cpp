@@ -104,15 +104,15 @@ void check_kills(int least) {
 
 }  // namespace
 
-TEST_CASE("a render that is killed at any moment goes on to the same picture") {
+TEST_CASE("A render that is killed at any moment goes on to the same picture") {
   check_kills(pah::test::sanitized ? 2 : 4);
 }
 
-TEST_CASE("a render that is killed 50 times goes on to the same picture", "[full]") {
+TEST_CASE("A render that is killed 50 times goes on to the same picture", "[full]") {
   check_kills(50);
 }
 
-TEST_CASE("an interrupt leaves a checkpoint, from which any number of samples goes on") {
+TEST_CASE("An interrupt leaves a checkpoint, from which any number of samples goes on") {
   const CurrentTemporaryFolder folder;
   write_file("scene.yaml", small_scene);
   const Outcome outcome = interrupt(many + layers);
@@ -132,7 +132,7 @@ TEST_CASE("an interrupt leaves a checkpoint, from which any number of samples go
   CHECK(identical("out.exr", "whole.exr"));
 }
 
-TEST_CASE("a pass that is interrupted goes on with the tiles that lack it") {
+TEST_CASE("A pass that is interrupted goes on with the tiles that lack it") {
   const CurrentTemporaryFolder folder;
   write_file("scene.yaml", small_scene);
   const Words large{"scene.yaml",
@@ -154,14 +154,14 @@ TEST_CASE("a pass that is interrupted goes on with the tiles that lack it") {
   CHECK(identical("out.exr", "whole.exr"));
 }
 
-TEST_CASE("a time limit leaves a checkpoint, too") {
+TEST_CASE("A time limit leaves a checkpoint, too") {
   const CurrentTemporaryFolder folder;
   write_file("scene.yaml", small_scene);
   render(many + Words{"--time-limit", "0.0001"});
   CHECK(fs::exists(checkpoint));
 }
 
-TEST_CASE("without a checkpoint a render starts anew and says so") {
+TEST_CASE("Without a checkpoint a render starts over with a message") {
   const CurrentTemporaryFolder folder;
   write_file("scene.yaml", small_scene);
   const Outcome outcome = run({"scene.yaml", "-o", "out.exr", "--resume", "--checkpoint", "5"});
@@ -170,7 +170,7 @@ TEST_CASE("without a checkpoint a render starts anew and says so") {
   CHECK(files() == Words{"out.exr", "scene.yaml"});
 }
 
-TEST_CASE("a checkpoint that is about to be replaced is warned of") {
+TEST_CASE("A checkpoint that will be replaced causes a warning") {
   const CurrentTemporaryFolder folder;
   write_file("scene.yaml", small_scene);
   interrupt(many);
@@ -180,7 +180,7 @@ TEST_CASE("a checkpoint that is about to be replaced is warned of") {
   CHECK(!fs::exists(checkpoint));
 }
 
-TEST_CASE("a checkpoint of another render is refused, and what differs is named") {
+TEST_CASE("A checkpoint of another render is refused with the differences") {
   const CurrentTemporaryFolder folder;
   write_file("scene.yaml", small_scene);
   interrupt(many);
@@ -202,7 +202,7 @@ TEST_CASE("a checkpoint of another render is refused, and what differs is named"
   check_refused(many, "the scene (its text, the files that it names and -D) is ");
 }
 
-TEST_CASE("a damaged checkpoint is refused") {
+TEST_CASE("A damaged checkpoint is refused") {
   const CurrentTemporaryFolder folder;
   write_file("scene.yaml", small_scene);
   interrupt(many);
@@ -216,7 +216,7 @@ TEST_CASE("a damaged checkpoint is refused") {
   check_refused(many, "is not a pahrender film");
 }
 
-TEST_CASE("a checkpoint that cannot be written is warned of once, and the picture is there") {
+TEST_CASE("A checkpoint that cannot be written causes one warning and keeps the picture") {
   const CurrentTemporaryFolder folder;
   write_file("scene.yaml", small_scene);
   fs::create_directories("out.exr.film/in the way");

@@ -44,7 +44,7 @@ auto pixels(const std::string& file) { return pah::read_image(file).pixels; }
 
 }  // namespace
 
-TEST_CASE("a frame's number stands in place of #") {
+TEST_CASE("A frame's number replaces #") {
   CHECK(numbered("frame_####.png", 7) == "frame_0007.png");
   CHECK(numbered("a/frame_####.png", 12345) == "a/frame_12345.png");
   CHECK(numbered("#.png", 0) == "0.png");
@@ -55,7 +55,7 @@ TEST_CASE("a frame's number stands in place of #") {
   CHECK(numbered("", 3).empty());
 }
 
-TEST_CASE("every frame is the picture of the scene at that frame") {
+TEST_CASE("Every frame is the picture of the scene at that frame") {
   const CurrentTemporaryFolder folder;
   write_file("scene.yaml", small_scene);
   const Outcome outcome = run(frames("3:6", {"-o", "f_##.exr"}));
@@ -73,7 +73,7 @@ TEST_CASE("every frame is the picture of the scene at that frame") {
   CHECK(pixels("key.exr") == pixels("f_04.exr"));
 }
 
-TEST_CASE("frames that are there and whole are kept, others are rendered") {
+TEST_CASE("Complete frames are kept, and others are rendered") {
   // Under sanitizers programs take long to start.
   const Words extensions = pah::test::sanitized ? Words{".png"} : Words{".png", ".exr", ".film"};
   for (const std::string& extension : extensions) {
@@ -100,7 +100,7 @@ TEST_CASE("frames that are there and whole are kept, others are rendered") {
   }
 }
 
-TEST_CASE("frames of other settings are not taken for these") {
+TEST_CASE("Frames of other settings are rendered again") {
   const CurrentTemporaryFolder folder;
   write_file("scene.yaml", small_scene);
   const Words words = frames("5", {"-o", "f#.png"});
@@ -127,7 +127,7 @@ TEST_CASE("frames of other settings are not taken for these") {
   CHECK_FALSE(is_kept(with({"-D", "camera.position=[0, 1, 4.5]"})));
 }
 
-TEST_CASE("several frames need several files") {
+TEST_CASE("Several frames need several files") {
   const CurrentTemporaryFolder folder;
   write_file("scene.yaml", small_scene);
   const auto error_of = [](const Words& words) {
@@ -150,7 +150,7 @@ TEST_CASE("several frames need several files") {
         Words{"1.json", "2.json", "out.png", "scene.yaml", "scene_0001.png", "scene_0002.png"});
 }
 
-TEST_CASE("frames of a scene without any movement are warned of") {
+TEST_CASE("Frames of a scene without movement cause a warning") {
   const CurrentTemporaryFolder folder;
   write_file("scene.yaml", small_scene);
   const Outcome outcome = run({"scene.yaml", "--frames", "3", "--width", "8", "--spp", "1"});
@@ -158,7 +158,7 @@ TEST_CASE("frames of a scene without any movement are warned of") {
   CHECK(contains(outcome.err, "warning: nothing in the scene depends on the frame\n"));
 }
 
-TEST_CASE("an error at one frame ends the animation there") {
+TEST_CASE("An error at one frame ends the animation there") {
   const CurrentTemporaryFolder folder;
   write_file("scene.yaml", small_scene);
   Words words = frames("0:5", {"-o", "f#.png"});

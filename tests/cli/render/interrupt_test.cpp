@@ -18,7 +18,7 @@ const Words endless{"scene.yaml", "-o", "out.exr", "--spp", "1000000000"};
 
 }  // namespace
 
-TEST_CASE("a signal saves what there is and exits with 130") {
+TEST_CASE("A signal saves what there is and exits with 130") {
   for (const int number : {SIGINT, SIGTERM, SIGHUP}) {
     const CurrentTemporaryFolder folder;
     write_file("scene.yaml", small_scene);
@@ -36,7 +36,7 @@ TEST_CASE("a signal saves what there is and exits with 130") {
   }
 }
 
-TEST_CASE("a second signal ends the program at once") {
+TEST_CASE("A second signal ends the program at once") {
   const CurrentTemporaryFolder folder;
   write_file("scene.yaml", small_scene);
   Program program(endless, ErrorStream::terminal);
@@ -50,7 +50,7 @@ TEST_CASE("a second signal ends the program at once") {
   CHECK(files() == Words{"scene.yaml"});
 }
 
-TEST_CASE("the progress bar shows on a terminal only, and not if asked to be quiet") {
+TEST_CASE("The progress bar shows on a terminal only, and not if asked to be quiet") {
   const CurrentTemporaryFolder folder;
   write_file("scene.yaml", small_scene);
   const Words arguments{"scene.yaml", "-o", "out.png", "--spp", "64"};
@@ -64,7 +64,7 @@ TEST_CASE("the progress bar shows on a terminal only, and not if asked to be qui
   CHECK(run(quietly, ErrorStream::terminal).err.empty());
 }
 
-TEST_CASE("an interrupt before every pixel has a sample leaves an old picture as it was") {
+TEST_CASE("An interrupt before every pixel has a sample leaves an old picture as it was") {
   const CurrentTemporaryFolder folder;
   // A pass takes long: the picture is large and full of glass.
   write_file("scene.yaml",
@@ -83,7 +83,7 @@ TEST_CASE("an interrupt before every pixel has a sample leaves an old picture as
   CHECK(read_file("out.exr") == "an old picture");
 }
 
-TEST_CASE("an interrupt before anything is rendered ends the program at once") {
+TEST_CASE("An interrupt before anything is rendered ends the program at once") {
   using Clock = std::chrono::steady_clock;
   using std::chrono::milliseconds;
   const CurrentTemporaryFolder folder;
@@ -105,7 +105,7 @@ TEST_CASE("an interrupt before anything is rendered ends the program at once") {
   }
 }
 
-TEST_CASE("the time limit counts loading and building too") {
+TEST_CASE("The time limit counts loading and building too") {
   const CurrentTemporaryFolder folder;
   write_file("scene.yaml", small_scene);
   const Outcome outcome =

@@ -32,7 +32,7 @@ Shown render(Words arguments) {
 
 }  // namespace
 
-TEST_CASE("a preview has a quarter of the width and height, and four samples") {
+TEST_CASE("A preview has a quarter of the width and height, and four samples") {
   const CurrentTemporaryFolder folder;
   const auto check = [](const Words& arguments, int width, int height, int samples) {
     const Shown shown = render(arguments);
@@ -46,13 +46,13 @@ TEST_CASE("a preview has a quarter of the width and height, and four samples") {
   check({"--preview", "--width", "5", "--height", "1"}, 2, 1, 4);
 }
 
-TEST_CASE("a preview is the picture that a film of its size has") {
+TEST_CASE("A preview is the picture that a film of its size has") {
   const CurrentTemporaryFolder folder;
   CHECK(render({"--preview", "--width", "64", "--spp", "2"}).image.pixels ==
         render({"--width", "16", "--spp", "2"}).image.pixels);
 }
 
-TEST_CASE("a crop of a preview is that part of the preview") {
+TEST_CASE("A crop of a preview is that part of the preview") {
   const CurrentTemporaryFolder folder;
   const Image whole = render({"--preview", "--width", "128"}).image;
   const Image part = render({"--preview", "--width", "128", "--crop", "7,18,16,96"}).image;
@@ -62,7 +62,7 @@ TEST_CASE("a crop of a preview is that part of the preview") {
     for (int x = 0; x < part.width; ++x) CHECK(part.at(x, y) == whole.at(x + 1, y + 4));
 }
 
-TEST_CASE("a crop is in pixels of the picture, not of its preview") {
+TEST_CASE("A crop is in pixels of the picture, not of its preview") {
   const CurrentTemporaryFolder folder;
   CHECK(render({"--preview", "--crop", "24,32,0,24"}).image.width == 2);
   const Outcome outcome = run({"scene.yaml", "-o", "out.exr", "--preview", "--crop", "24,33,0,24"});
@@ -70,7 +70,7 @@ TEST_CASE("a crop is in pixels of the picture, not of its preview") {
   CHECK(outcome.err.find("reaches beyond the 32 x 24 picture") != std::string::npos);
 }
 
-TEST_CASE("the crop of a preview lies within it, whatever the sizes") {
+TEST_CASE("The crop of a preview lies within it, whatever the sizes") {
   for (int size = 1; size < 20; ++size) {
     for (int end = 1; end <= size; ++end) {
       pah::FilmSettings film;

@@ -16,7 +16,7 @@ const Progress quarter{0.25, 5, 10'000'000, 16};
 
 }  // namespace
 
-TEST_CASE("the progress bar shows as much as fits") {
+TEST_CASE("The progress bar shows as much as fits") {
   const RenderGoal goal{64, 0};
   CHECK(format_progress(quarter, goal, 79) ==
         "[#####...............] 25 %  5.0 s, 15 s left  16/64 samples  2.0 Mrays/s");
@@ -29,13 +29,13 @@ TEST_CASE("the progress bar shows as much as fits") {
     CHECK(format_progress(quarter, goal, width).size() <= width);
 }
 
-TEST_CASE("the time left is no more than the time limit allows") {
+TEST_CASE("The time left is no more than the time limit allows") {
   CHECK(format_progress(quarter, {64, 6}, 39) == "83 %  1.0 s left");
   CHECK(format_progress(quarter, {64, 4}, 39) == "100 %  0.0 s left");
   CHECK(format_progress({0, 0, 0, 0}, {64, 0}, 39) == "0 %  ? left");
 }
 
-TEST_CASE("a heartbeat comes once an interval, not before the first has passed, nor at the end") {
+TEST_CASE("A heartbeat comes once an interval, not at the start and not at the end") {
   Heartbeat heartbeat({100, 0}, 2);
   const auto line_at = [&](double seconds) {
     return heartbeat.line({seconds / 10, seconds, 0, 0});
@@ -50,7 +50,7 @@ TEST_CASE("a heartbeat comes once an interval, not before the first has passed, 
   CHECK(line_at(10).empty());
 }
 
-TEST_CASE("a terminal that cannot draw over a line gets none") {
+TEST_CASE("A terminal that cannot overwrite lines gets no progress bar") {
   const CurrentTemporaryFolder folder;
   write_file("scene.yaml", small_scene);
   const Outcome outcome = run({"scene.yaml", "-o", "out.png"}, ErrorStream::dumb_terminal);

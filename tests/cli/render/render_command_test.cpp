@@ -45,7 +45,7 @@ bool is_black(const std::string& file) {
 
 }  // namespace
 
-TEST_CASE("a render writes its picture, says so, and leaves stdout alone") {
+TEST_CASE("A render writes its picture, says so, and leaves stdout alone") {
   const CurrentTemporaryFolder folder;
   write_file("scene.yaml", small_scene);
   const Outcome outcome = run({"scene.yaml", "-o", "out.exr"});
@@ -63,7 +63,7 @@ TEST_CASE("a render writes its picture, says so, and leaves stdout alone") {
   CHECK(!is_black("out.exr"));
 }
 
-TEST_CASE("without -o the picture is named like the scene, in the current folder") {
+TEST_CASE("Without -o the picture is named like the scene, in the current folder") {
   const CurrentTemporaryFolder folder;
   fs::create_directory("scenes");
   write_file("scenes/small.yaml", small_scene);
@@ -71,7 +71,7 @@ TEST_CASE("without -o the picture is named like the scene, in the current folder
   CHECK(files() == Words{"scenes", "small.png"});
 }
 
-TEST_CASE("every picture format can be written") {
+TEST_CASE("Every picture format can be written") {
   const CurrentTemporaryFolder folder;
   write_file("scene.yaml", small_scene);
   for (const std::string& extension : pah::image_extensions()) {
@@ -81,7 +81,7 @@ TEST_CASE("every picture format can be written") {
   }
 }
 
-TEST_CASE("the command line overrides the scene") {
+TEST_CASE("The command line overrides the scene") {
   const CurrentTemporaryFolder folder;
   write_file("scene.yaml", small_scene);
   render({"scene.yaml", "-o", "out.exr", "--stats", "stats.json", "--spp", "3", "--width", "20",
@@ -100,7 +100,7 @@ TEST_CASE("the command line overrides the scene") {
   CHECK(read_json("stats.json")["samples"] == 2);
 }
 
-TEST_CASE("switch --width or --height alone keeps the aspect of the scene") {
+TEST_CASE("Option --width or --height alone keeps the aspect ratio of the scene") {
   const CurrentTemporaryFolder folder;
   write_file("scene.yaml", small_scene);  // 32 x 24
   const auto size = [](const char* option, const char* value) {
@@ -114,7 +114,7 @@ TEST_CASE("switch --width or --height alone keeps the aspect of the scene") {
   CHECK(size("--height", "1") == std::pair(1, 1));
 }
 
-TEST_CASE("switch --exposure counts in stops, in low dynamic range files only") {
+TEST_CASE("Option --exposure counts in stops, in low dynamic range files only") {
   const CurrentTemporaryFolder folder;
   write_file("scene.yaml", small_scene);
   render({"scene.yaml", "-o", "out.png"});
@@ -126,7 +126,7 @@ TEST_CASE("switch --exposure counts in stops, in low dynamic range files only") 
   CHECK(identical("a.exr", "b.exr"));
 }
 
-TEST_CASE("switch --stats has every key of the contract, of the right type") {
+TEST_CASE("Option --stats writes every key of the contract, of the right type") {
   const CurrentTemporaryFolder folder;
   write_file("scene.yaml", small_scene);
   render({"scene.yaml", "-o", "out.png", "--stats", "stats.json"});
@@ -190,7 +190,7 @@ TEST_CASE("EXR files say how they were made and hold the layers asked for") {
   CHECK(OIIO::ImageInput::open("half.exr")->spec().channelformat(0) == OIIO::TypeHalf);
 }
 
-TEST_CASE("a film keeps what layers take only where they are asked for") {
+TEST_CASE("A film keeps features only if a layer asks for them") {
   const CurrentTemporaryFolder folder;
   write_file("scene.yaml", small_scene);
   const auto film_bytes = [](const char* output, const char* channels) {
@@ -224,7 +224,7 @@ TEST_CASE("TIFF files are linear, as EXR files are") {
   CHECK(identical("out.exr", "out.tif"));
 }
 
-TEST_CASE("switch --time-limit ends a render that would take for ever") {
+TEST_CASE("Option --time-limit ends an endless render") {
   const CurrentTemporaryFolder folder;
   write_file("scene.yaml", small_scene);
   const Outcome outcome = run({"scene.yaml", "-o", "out.png", "--spp", "1000000000", "--time-limit",
@@ -235,7 +235,7 @@ TEST_CASE("switch --time-limit ends a render that would take for ever") {
   CHECK(read_json("stats.json")["samples"] >= 1);
 }
 
-TEST_CASE("a crop is that part of the whole picture") {
+TEST_CASE("A crop is that part of the whole picture") {
   const CurrentTemporaryFolder folder;
   write_file("scene.yaml", small_scene);
   render({"scene.yaml", "-o", "whole.exr"});
@@ -250,7 +250,7 @@ TEST_CASE("a crop is that part of the whole picture") {
   CHECK(same);
 }
 
-TEST_CASE("another seed gives another picture") {
+TEST_CASE("Another seed gives another picture") {
   const CurrentTemporaryFolder folder;
   write_file("scene.yaml", small_scene);
   render({"scene.yaml", "-o", "a.exr"});
@@ -258,7 +258,7 @@ TEST_CASE("another seed gives another picture") {
   CHECK(!identical("a.exr", "b.exr"));
 }
 
-TEST_CASE("switch --threads and --accel do as they say, and never change a pixel") {
+TEST_CASE("Options --threads and --accel work and never change a pixel") {
   const CurrentTemporaryFolder folder;
   write_file("scene.yaml", small_scene);
   const auto render_to = [](const char* out, const char* accelerator, const char* threads) {
@@ -278,7 +278,7 @@ TEST_CASE("switch --threads and --accel do as they say, and never change a pixel
     }
 }
 
-TEST_CASE("a declared influence area is built and measured, and left out by --accel bvh and off") {
+TEST_CASE("A declared influence area is built and measured, and left out by --accel bvh and off") {
   const CurrentTemporaryFolder folder;
   write_file("scene.yaml", std::string(small_scene) +
                                "influence_areas: [auto, {type: point, light: bulb, fov: [120, 120],"

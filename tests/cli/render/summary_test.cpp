@@ -36,21 +36,21 @@ RenderResult complete(RenderResult result) {
 
 }  // namespace
 
-TEST_CASE("the last line tells size, samples, seconds, rays a second and the error") {
+TEST_CASE("The last line tells size, samples, seconds, rays a second and the error") {
   // A relative variance of 0.25 / 64, about, so an error of 1/16.
   CHECK(summary_of("out.png", complete(picture({64, 64, 64}, 0.5)), 64, 12.3) ==
         "wrote out.png: 3 x 1, 64 samples, 12 s, 3.0 Mrays/s, "
         "error about 6.3 % (256 samples would halve it)\n");
 }
 
-TEST_CASE("one sample tells nothing of the error") {
+TEST_CASE("One sample gives no estimate of the error") {
   CHECK(summary_of("out.png", complete(picture({1, 1}, 0.5)), 1, 0.5) ==
         "wrote out.png: 2 x 1, 1 samples, 0.5 s, 3.0 Mrays/s\n");
   // A few pixels do not speak for all.
   CHECK(format_error(picture({2, 1}, 0.5)).empty());
 }
 
-TEST_CASE("an error is told by two digits, and what is none is not to be halved") {
+TEST_CASE("An error has two digits, and no hint if it is zero") {
   CHECK(format_error(complete(picture({2, 2}, 0.5))) ==
         "error about 57 % (8 samples would halve it)");
   CHECK(format_error(complete(picture({64, 64}, 0.01))) ==
@@ -58,7 +58,7 @@ TEST_CASE("an error is told by two digits, and what is none is not to be halved"
   CHECK(format_error(complete(picture({4, 4}, 0))) == "error below 0.01 %");
 }
 
-TEST_CASE("a pass in part counts by the mean of its samples") {
+TEST_CASE("An unfinished pass counts by the mean of its samples") {
   CHECK(format_samples(picture({12, 12, 14}, 0.5), 64) == "12.7 of 64");
   CHECK(format_samples(picture({12, 12}, 0.5), 64) == "12 of 64");
   CHECK(format_samples(picture({0, 0, 1}, 0.5), 64) == "0.33 of 64");

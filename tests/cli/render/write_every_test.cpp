@@ -59,7 +59,7 @@ int samples_in(const std::string& file) { return look_at(file).value_or(Seen{}).
 
 }  // namespace
 
-TEST_CASE("a picture that is looked at while it is rendered is whole at every moment") {
+TEST_CASE("A picture file is complete at every moment of a render") {
   for (const std::string output : {"out.exr", "out.tif"}) {
     const CurrentTemporaryFolder folder;
     Words arguments = endless(output);
@@ -86,7 +86,7 @@ TEST_CASE("a picture that is looked at while it is rendered is whole at every mo
   }
 }
 
-TEST_CASE("a picture has all its layers while it is rendered") {
+TEST_CASE("A picture has all its layers while it is rendered") {
   const CurrentTemporaryFolder folder;
   Words arguments = endless("out.exr");
   arguments.insert(arguments.end(), {"-D", "film.channels=[albedo, normal, depth, variance]"});
@@ -97,7 +97,7 @@ TEST_CASE("a picture has all its layers while it is rendered") {
   CHECK(input->spec().nchannels == 3 + 3 + 3 + 1 + 3);
 }
 
-TEST_CASE("switch --write-every does not change the picture") {
+TEST_CASE("Option --write-every does not change the picture") {
   const CurrentTemporaryFolder folder;
   write_file("scene.yaml", small_scene);
   const Words arguments{"scene.yaml", "--spp", "50", "--width", "64", "--quiet"};
@@ -114,7 +114,7 @@ TEST_CASE("switch --write-every does not change the picture") {
 }
 
 TEST_CASE(
-    "a picture that cannot be written in the midst is warned of once, and the render goes on") {
+    "A picture that cannot be written in the midst is warned of once, and the render goes on") {
   const CurrentTemporaryFolder folder;
   fs::create_directory("pictures");
   Words arguments = endless("pictures/out.exr");
@@ -140,7 +140,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("a pipe gets the finished picture only") {
+TEST_CASE("A pipe gets the finished picture only") {
   const CurrentTemporaryFolder folder;
   write_file("scene.yaml", small_scene);
   REQUIRE(::mkfifo("out.png", 0600) == 0);

@@ -5,7 +5,7 @@
 
 using pah::cli::WriteSchedule;
 
-TEST_CASE("a picture is written at once, then every so many seconds") {
+TEST_CASE("A picture is written at once and then at every interval") {
   WriteSchedule schedule(5);
   CHECK(schedule.due(0));
   schedule.written(1, 1.01);
@@ -13,7 +13,7 @@ TEST_CASE("a picture is written at once, then every so many seconds") {
   CHECK(schedule.due(6.02));
 }
 
-TEST_CASE("writing takes no more than its share of the time, but for the first") {
+TEST_CASE("Writing takes no more than its share of the time, but for the first") {
   WriteSchedule schedule(5);
   schedule.written(10, 11);
   CHECK(!schedule.due(19.9));

@@ -127,7 +127,7 @@ TEST_CASE("tev shows a crop where it is in the picture") {
   CHECK(std::ranges::count(picture.told, true) == 48 * 37);
 }
 
-TEST_CASE("the picture is the same with a viewer and without") {
+TEST_CASE("The picture is the same with a viewer and without") {
   const CurrentTemporaryFolder folder;
   const TevListener listener;
   (void)run(small_render("with.film", {"--spp", "5", "--tev", listener.address()}));
@@ -137,7 +137,7 @@ TEST_CASE("the picture is the same with a viewer and without") {
   CHECK(shown(listener, "with.film").updates >= 6);
 }
 
-TEST_CASE("tev shows what a render goes on from") {
+TEST_CASE("tev shows the film from which a render continues") {
   const CurrentTemporaryFolder folder;
   const TevListener listener;
   const Words more{"--checkpoint", "100", "--tev", listener.address(), "--quiet"};
@@ -156,7 +156,7 @@ TEST_CASE("tev shows what a render goes on from") {
   CHECK(picture.image.pixels == pah::read_image("out.exr").pixels);
 }
 
-TEST_CASE("without a viewer the picture is rendered, with a warning") {
+TEST_CASE("Without a viewer the picture is rendered, with a warning") {
   const CurrentTemporaryFolder folder;
   const std::string address = "127.0.0.1:" + std::to_string(free_port());
   const Outcome outcome = run(small_render("out.film", {"--tev", address}));
@@ -166,7 +166,7 @@ TEST_CASE("without a viewer the picture is rendered, with a warning") {
   CHECK(fs::exists("out.film"));
 }
 
-TEST_CASE("that there is no viewer is an error if warnings are") {
+TEST_CASE("A missing viewer is an error with --strict") {
   const CurrentTemporaryFolder folder;
   const std::string address = "127.0.0.1:" + std::to_string(free_port());
   const Outcome outcome = run(small_render("out.film", {"--tev", address, "--strict", "--quiet"}));
@@ -175,7 +175,7 @@ TEST_CASE("that there is no viewer is an error if warnings are") {
   CHECK(fs::exists("out.film"));
 }
 
-TEST_CASE("a viewer that is closed in the midst is warned of once") {
+TEST_CASE("A viewer that closes during a render causes one warning") {
   const CurrentTemporaryFolder folder;
   const TevListener listener(Listening::first_packet);
   const Outcome outcome =
@@ -189,7 +189,7 @@ TEST_CASE("a viewer that is closed in the midst is warned of once") {
   CHECK(listener.fault().empty());
 }
 
-TEST_CASE("a viewer that reads nothing keeps nobody waiting") {
+TEST_CASE("A viewer that reads nothing does not delay the render") {
   const TevListener listener(Listening::nothing);
   const Film film = gray_film(640, 640);
   TevStream stream(address_of(listener), "slow", settings_of(film), {5s, 200ms});
@@ -211,7 +211,7 @@ TEST_CASE("a viewer that reads nothing keeps nobody waiting") {
   CHECK(Clock::now() - start < 2s);
 }
 
-TEST_CASE("what waits when a picture is finished is sent") {
+TEST_CASE("Waiting tiles are sent when a picture is finished") {
   const TevListener listener;
   const Film film = gray_film(640, 640);
   TevStream stream(address_of(listener), "waits", settings_of(film));
@@ -224,7 +224,7 @@ TEST_CASE("what waits when a picture is finished is sent") {
   CHECK(picture.image.pixels == radiance_of(film).pixels);
 }
 
-TEST_CASE("tev is told of a picture's tiles as they are finished") {
+TEST_CASE("Tiles are sent to tev as they are finished") {
   const CurrentTemporaryFolder folder;
   const TevListener listener;
   Program program(small_render("out.film", {"--tev", listener.address(), "--spp", "1000000000"}));
@@ -253,7 +253,7 @@ TEST_CASE("tev shows what watch renders") {
   CHECK(program.wait().exit_code == 130);
 }
 
-TEST_CASE("a viewer's address is a host, a port or both") {
+TEST_CASE("A viewer's address is a host, a port or both") {
   const auto is = [](const char* text, const char* host, int port) {
     INFO(text);
     CHECK(parse_tev_address(text) == TevAddress{host, static_cast<std::uint16_t>(port)});
@@ -276,7 +276,7 @@ TEST_CASE("a viewer's address is a host, a port or both") {
   CHECK(to_string(TevAddress{}) == "127.0.0.1:14158");
 }
 
-TEST_CASE("a value of --tev that makes no sense is wrong usage") {
+TEST_CASE("An invalid value of --tev is wrong usage") {
   const CurrentTemporaryFolder folder;
   write_file("scene.yaml", small_scene);
   for (const char* text : {"host:70000", "a b", "::1"}) {
@@ -287,7 +287,7 @@ TEST_CASE("a value of --tev that makes no sense is wrong usage") {
   }
 }
 
-TEST_CASE("packets are what tev's protocol says") {
+TEST_CASE("Packets follow tev's protocol") {
   using namespace std::string_literals;
   CHECK(pah::cli::create_image_packet("a.png", 258, 3) ==
         "\x1e\0\0\0\x04\x01"
@@ -301,7 +301,7 @@ TEST_CASE("packets are what tev's protocol says") {
         "\0\0\x80\x3f\0\0\0\xc0\0\0\0\x3f"s);
 }
 
-TEST_CASE("a queue holds the last state of each tile, the longest waiting first") {
+TEST_CASE("A queue holds the last state of each tile, the longest waiting first") {
   TileQueue queue;
   const auto tile = [](int x, int y, float value) {
     return pah::cli::ShownTile{x, y, Image{1, 1, {Vec3(value)}}};
@@ -333,7 +333,7 @@ TEST_CASE("a queue holds the last state of each tile, the longest waiting first"
   CHECK(!abandoned.pop());
 }
 
-TEST_CASE("a queue's reader waits for tiles of several threads") {
+TEST_CASE("A queue's reader waits for tiles of several threads") {
   TileQueue queue;
   int taken = 0;
   std::thread reader([&] {

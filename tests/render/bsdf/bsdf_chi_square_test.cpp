@@ -54,7 +54,7 @@ TEST_CASE("BSDF samples follow the stated density in a million draws each", "[fu
   test_all(1'000'000, 5, 1000);
 }
 
-TEST_CASE("visible normals follow their density") {
+TEST_CASE("Visible normals follow their density") {
   int seed = 0;
   for (const float alpha : {0.05F, 0.3F, 1.0F}) {
     for (const float cos_theta : {1.0F, 0.6F, 0.1F, 0.001F}) {
@@ -75,7 +75,7 @@ TEST_CASE("visible normals follow their density") {
   }
 }
 
-TEST_CASE("a wrong density of a BSDF is rejected") {
+TEST_CASE("A wrong density of a BSDF is rejected") {
   Rng rng(7);
   const Vec3 wo = direction(0.5F, 0.7F);
   const Bsdf metal = MetalBsdf{Vec3{0.2F}, Vec3{3}, 0.3F, Vec3{1}};

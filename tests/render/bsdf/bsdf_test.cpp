@@ -46,7 +46,7 @@ double furnace(const Bsdf& bsdf, const Vec3& wo, int count, Rng& rng, int channe
 
 }  // namespace
 
-TEST_CASE("a sample's weight and density are those of its direction") {
+TEST_CASE("A sample's weight and density are those of its direction") {
   Rng rng(1);
   const int count = fewer_if_sanitized(20'000);
   for (const BsdfCase& c : rough_bsdfs()) {
@@ -74,7 +74,7 @@ TEST_CASE("a sample's weight and density are those of its direction") {
   }
 }
 
-TEST_CASE("white furnace: what absorbs nothing returns everything") {
+TEST_CASE("White furnace: BSDFs without absorption return all light") {
   Rng rng(2);
   for (const float cos_theta : {1.0F, 0.6F, 0.1F, 1e-3F}) {
     const Vec3 wo = direction(cos_theta, 1);
@@ -93,7 +93,7 @@ TEST_CASE("white furnace: what absorbs nothing returns everything") {
   }
 }
 
-TEST_CASE("nothing returns more light than it gets") {
+TEST_CASE("No BSDF returns more light than it receives") {
   Rng rng(3);
   std::vector<BsdfCase> cases = rough_bsdfs();
   for (const BsdfCase& c : smooth_bsdfs()) cases.push_back(c);
@@ -118,7 +118,7 @@ TEST_CASE("nothing returns more light than it gets") {
   std::printf("largest albedo of all BSDFs: %.4f\n", worst);
 }
 
-TEST_CASE("light lost by single scattering is reported") {
+TEST_CASE("Light lost by single scattering is reported") {
   // A white conductor and a white dielectric: what is missing from 1 is what a facet hands to
   // another facet.
   Rng rng(4);
@@ -176,12 +176,10 @@ void test_reciprocity(int pairs) {
 
 }  // namespace
 
-TEST_CASE("light goes back the way it came") { test_reciprocity(20'000); }
-TEST_CASE("light goes back the way it came a million times", "[full]") {
-  test_reciprocity(1'000'000);
-}
+TEST_CASE("BSDFs are reciprocal") { test_reciprocity(20'000); }
+TEST_CASE("BSDFs are reciprocal, a million times", "[full]") { test_reciprocity(1'000'000); }
 
-TEST_CASE("no direction, however grazing, gives anything but finite numbers") {
+TEST_CASE("No direction, however grazing, gives anything but finite numbers") {
   Rng rng(6);
   std::vector<BsdfCase> cases = rough_bsdfs();
   for (const BsdfCase& c : smooth_bsdfs()) cases.push_back(c);
@@ -224,7 +222,7 @@ TEST_CASE("no direction, however grazing, gives anything but finite numbers") {
   }
 }
 
-TEST_CASE("smooth lobes are known") {
+TEST_CASE("Smooth lobes are reported") {
   for (const BsdfCase& c : rough_bsdfs()) CHECK(has_smooth_lobes(c.bsdf));
   CHECK_FALSE(has_smooth_lobes(MirrorBsdf{}));
   CHECK_FALSE(has_smooth_lobes(GlassBsdf{}));
@@ -233,7 +231,7 @@ TEST_CASE("smooth lobes are known") {
   CHECK_FALSE(has_smooth_lobes(make_principled(Vec3{0.5F}, 1, 1.5F, 0)));
 }
 
-TEST_CASE("opaque surfaces are the same on both sides") {
+TEST_CASE("Opaque surfaces are the same on both sides") {
   Rng rng(8);
   const Vec3 flip{1, 1, -1};
   for (const BsdfCase& c : rough_bsdfs()) {
@@ -246,7 +244,7 @@ TEST_CASE("opaque surfaces are the same on both sides") {
   }
 }
 
-TEST_CASE("smooth glass refracts by Snell's law and reflects totally beyond the critical angle") {
+TEST_CASE("Smooth glass refracts by Snell's law and reflects totally beyond the critical angle") {
   const Vec3 wo = direction(0.6F, 0);
   const auto in = sample(GlassBsdf{1.5F}, wo, 0.99F, {0, 0});
   REQUIRE(in);
@@ -292,7 +290,7 @@ TEST_CASE("Fresnel terms take known values") {
   }
 }
 
-TEST_CASE("the mean Fresnel reflectance is the integral of the Fresnel reflectance") {
+TEST_CASE("The mean Fresnel reflectance is the integral of the Fresnel reflectance") {
   for (const double eta : {1.00001, 1.001, 1.1, 1.33, 1.5, 2.4, 4.0, 0.75, 0.5}) {
     double sum = 0;
     constexpr int steps = 200'000;
@@ -313,7 +311,7 @@ TEST_CASE("the mean Fresnel reflectance is the integral of the Fresnel reflectan
   }
 }
 
-TEST_CASE("the planted fault of an unscaled radiance shows in the furnace") {
+TEST_CASE("The planted fault of an unscaled radiance shows in the furnace") {
   // Glass that forgets the squared index on one side returns 1.5^2 of the light that passes.
   Rng rng(9);
   const Vec3 wo = direction(0.8F, 0);

@@ -24,7 +24,7 @@ Bsdf resolve(const Model& model, const TextureStore& textures) {
 
 }  // namespace
 
-TEST_CASE("materials resolve to the scattering they name") {
+TEST_CASE("Materials resolve to their BSDFs") {
   const TextureStore textures = constants({{0.5F, 0.25F, 2}, {0.1F, 0.6F, 0.9F}});
   const auto diffuse = std::get<DiffuseBsdf>(resolve(DiffuseMaterial{{Vec3{0.5F}, 0}}, textures));
   CHECK(diffuse.reflectance == Vec3{0.25F, 0.125F, 1});
@@ -44,7 +44,7 @@ TEST_CASE("materials resolve to the scattering they name") {
   CHECK(std::holds_alternative<CoatedBsdf>(resolve(PlasticMaterial{}, textures)));
 }
 
-TEST_CASE("roughness too small to tell counts as smooth") {
+TEST_CASE("Very small roughness counts as smooth") {
   const TextureStore none = constants({});
   const auto alpha = [&](float roughness, float ior) {
     return std::get<GlassBsdf>(
@@ -61,7 +61,7 @@ TEST_CASE("roughness too small to tell counts as smooth") {
   CHECK(ggx_alpha(0.03F) > min_ggx_alpha);
 }
 
-TEST_CASE("opacity and normal maps") {
+TEST_CASE("Opacity and normal maps are read") {
   const TextureStore textures =
       constants({{0.5F, 0.5F, 1}, {1, 0.5F, 0.5F}, {0.75F, 0.5F, 0.9330127F}, {0, 0, 0}});
   Material material;
@@ -91,7 +91,7 @@ TEST_CASE("opacity and normal maps") {
   }
 }
 
-TEST_CASE("frames are orthonormal and right-handed about any normal") {
+TEST_CASE("Frames are orthonormal and right-handed about any normal") {
   const auto check = [](const ShadingFrame& f) {
     CHECK(glm::length(f.x) == Approx(1).margin(1e-5));
     CHECK(glm::length(f.y) == Approx(1).margin(1e-5));

@@ -84,7 +84,7 @@ bool same_bytes(const std::vector<Value>& a, const std::vector<Value>& b) {
 
 }  // namespace
 
-TEST_CASE("a film is read as it was written, to the last bit") {
+TEST_CASE("A film is read as it was written, to the last bit") {
   const CurrentTemporaryFolder folder;
   for (const bool features : {false, true}) {
     const FilmOrigin origin = small_origin(features);
@@ -104,7 +104,7 @@ TEST_CASE("a film is read as it was written, to the last bit") {
   }
 }
 
-TEST_CASE("every byte of a film that is changed is found") {
+TEST_CASE("Every byte of a film that is changed is found") {
   const CurrentTemporaryFolder folder;
   const std::string good = film_bytes(true);
   for (std::size_t at = 0; at < good.size(); ++at)
@@ -119,7 +119,7 @@ TEST_CASE("every byte of a film that is changed is found") {
     }
 }
 
-TEST_CASE("a film that is cut short or has more at its end is found") {
+TEST_CASE("A film that is cut short or has more at its end is found") {
   const CurrentTemporaryFolder folder;
   const std::string good = film_bytes(false);
   for (std::size_t size = 0; size < good.size(); ++size) {
@@ -130,7 +130,7 @@ TEST_CASE("a film that is cut short or has more at its end is found") {
     CHECK(contains(error_of(good + std::string(more, '\0')), "bytes follow its end"));
 }
 
-TEST_CASE("sizes of a film that lie are found before anything is allocated") {
+TEST_CASE("Wrong sizes in a film file are found before anything is allocated") {
   const CurrentTemporaryFolder folder;
   FilmOrigin origin = small_origin(true);
   origin.film.width = 61;
@@ -145,7 +145,7 @@ TEST_CASE("sizes of a film that lie are found before anything is allocated") {
   CHECK(contains(error_of(bytes), "is cut short: it has "));
 }
 
-TEST_CASE("a number of a film that lies is found") {
+TEST_CASE("A wrong number in a film file is found") {
   const CurrentTemporaryFolder folder;
   const std::string good = film_bytes(false);
   for (std::size_t at = 0; at + 8 <= good.size(); at += 8)
@@ -158,7 +158,7 @@ TEST_CASE("a number of a film that lies is found") {
     }
 }
 
-TEST_CASE("any bytes at all are read as a film or refused") {
+TEST_CASE("Any bytes are read as a film or refused") {
   const CurrentTemporaryFolder folder;
   std::mt19937 random(3);
   const std::string good = film_bytes(true);
@@ -170,7 +170,7 @@ TEST_CASE("any bytes at all are read as a film or refused") {
   CHECK_THROWS_AS(read_film("."), FileError);
 }
 
-TEST_CASE("a film that cannot be written is an error, and leaves nothing") {
+TEST_CASE("A film that cannot be written is an error, and leaves nothing") {
   const CurrentTemporaryFolder folder;
   const FilmOrigin origin = small_origin(false);
   CHECK_THROWS_AS(write_film("missing/a.film", origin, {}, random_film(origin)), FileError);
@@ -180,7 +180,7 @@ TEST_CASE("a film that cannot be written is an error, and leaves nothing") {
   CHECK(std::distance(fs::directory_iterator("."), fs::directory_iterator()) == 1);
 }
 
-TEST_CASE("what differs between the origins of films is named") {
+TEST_CASE("Differences between the origins of films are named") {
   const FilmOrigin wanted = small_origin(true);
   FilmOrigin other = wanted;
   other.render.samples += 1;

@@ -32,7 +32,7 @@ Image constant(int width, int height, float value) {
 
 }  // namespace
 
-TEST_CASE("means and variances of pixels") {
+TEST_CASE("Means and variances of pixels are right") {
   Film film = make_film(2, 1);
   FilmPixel& pixel = film.at(0, 0);
   for (const double x : {1.0, 2.0, 6.0}) add(pixel, {x, 2 * x, 0});
@@ -52,7 +52,7 @@ TEST_CASE("means and variances of pixels") {
   CHECK(variance_of(film).at(1, 0) == Vec3(0));
 }
 
-TEST_CASE("a part of a film has the same means, where the film is a part itself") {
+TEST_CASE("A part of a film has the same means, where the film is a part itself") {
   Film film = make_film(4, 3);
   film.rect = {10, 14, 20, 23};
   for (std::size_t i = 0; i < film.pixels.size(); ++i) add(film.pixels[i], DVec3(0.1) * double(i));
@@ -63,7 +63,7 @@ TEST_CASE("a part of a film has the same means, where the film is a part itself"
   CHECK(part.pixels == std::vector<Vec3>{all.at(1, 1), all.at(2, 1), all.at(1, 2), all.at(2, 2)});
 }
 
-TEST_CASE("the error is predicted within its interval") {
+TEST_CASE("The error lies within its predicted interval") {
   // Pixels of many brightnesses and of skewed noise; the truth is known.
   std::mt19937 random(7);
   for (const int samples : {4, 16, 64}) {
@@ -93,7 +93,7 @@ TEST_CASE("the error is predicted within its interval") {
   }
 }
 
-TEST_CASE("an error that cannot be known is infinite") {
+TEST_CASE("An unknown error is infinite") {
   Film film = make_film(2, 1);
   CHECK(std::isinf(estimate_error(film).relmse));
   add(film.at(0, 0), DVec3{1});
@@ -114,7 +114,7 @@ double drift_of(float constant, int count) {
 
 }  // namespace
 
-TEST_CASE("a sum of many samples does not drift") {
+TEST_CASE("A sum of many samples does not drift") {
   for (const float constant : {0.1F, 0.5F, 1e-20F, 3e7F})
     CHECK(drift_of(constant, 3'000'000) < 1e-15);
   // Nor does it depend on their order.
@@ -130,11 +130,11 @@ TEST_CASE("a sum of many samples does not drift") {
   CHECK(forth.radiance() == back.radiance());
 }
 
-TEST_CASE("a sum of 1e8 samples does not drift", "[full]") {
+TEST_CASE("A sum of 1e8 samples does not drift", "[full]") {
   for (const float constant : {0.1F, 0.5F}) CHECK(drift_of(constant, 100'000'000) < 1e-15);
 }
 
-TEST_CASE("films add up to the radiance of the whole, without error, in any split and order") {
+TEST_CASE("Films add up to the radiance of the whole, without error, in any split and order") {
   std::mt19937 random(5);
   std::lognormal_distribution<float> radiance(0, 4);
   std::vector<DVec3> samples;
@@ -153,7 +153,7 @@ TEST_CASE("films add up to the radiance of the whole, without error, in any spli
   }
 }
 
-TEST_CASE("films that are added keep hits and features, and must be alike") {
+TEST_CASE("Films that are added keep hits and features, and must be alike") {
   Film film = make_film(1, 1);
   film.pixels[0].hits = 3;
   film.features = {{DVec3{1, 2, 3}, DVec3{4, 5, 6}, 7}};

@@ -32,7 +32,7 @@ const double sidak = 1 - std::pow(1 - 0.01, 1.0 / 5);
 
 }  // namespace
 
-TEST_CASE("spherical triangles are sampled uniformly in solid angle") {
+TEST_CASE("Spherical triangles are sampled uniformly in solid angle") {
   const std::array<Triangle, 5> triangles{
       Triangle{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}},
       Triangle{{-0.4F, 0.05F, -0.7F}, {0.6F, 0.05F, -0.7F}, {-0.4F, 0.05F, 1.3F}},
@@ -94,7 +94,7 @@ TEST_CASE("spherical triangles are sampled uniformly in solid angle") {
   }
 }
 
-TEST_CASE("an environment picture is sampled by its density, which integrates to 1") {
+TEST_CASE("An environment picture is sampled by its density, which integrates to 1") {
   Random random(2);
   constexpr int w = 12, h = 7;
   std::vector<float> brightness(w * h);
@@ -133,7 +133,7 @@ TEST_CASE("an environment picture is sampled by its density, which integrates to
   CHECK(test::goodness_of_fit(counts, expected).p > 0.01);
 }
 
-TEST_CASE("a lat-long picture has -z in its center and +y at its top") {
+TEST_CASE("A lat-long picture has -z in its center and +y at its top") {
   CHECK(lat_long_from_direction({0, 0, -1}) == Vec2(0.5F, 0.5F));
   CHECK(lat_long_from_direction({1, 0, 0}) == Vec2(0.75F, 0.5F));
   CHECK(lat_long_from_direction({0, 1, 0}).y == 0);
@@ -178,7 +178,7 @@ Scene many_lights(int count) {
 
 }  // namespace
 
-TEST_CASE("choosing a light: probabilities are those of the choice and leave no light out") {
+TEST_CASE("Choosing a light: probabilities are those of the choice and leave no light out") {
   for (const int count : {9, 200, 1000}) {
     const Scene scene = many_lights(count);
     const World world = make_world(scene);
@@ -226,7 +226,7 @@ TEST_CASE("choosing a light: probabilities are those of the choice and leave no 
   }
 }
 
-TEST_CASE("many lights at once are as bright as each alone, added up") {
+TEST_CASE("Many lights at once are as bright as each alone, added up") {
   const Scene scene = many_lights(40);
   const Estimate together = estimate(scene);
   double sum = 0, variance = 0;

@@ -84,7 +84,7 @@ double variance_over_exact(const Scene& scene, const DVec2& side) {
 
 }  // namespace
 
-TEST_CASE("a choice among many spots varies little more than one that weighs each") {
+TEST_CASE("The choice among many spots varies little more than one that weighs each spot") {
   CHECK(variance_over_exact(spots_over_floor(1), {12, 12}) < 1.5);
   CHECK(variance_over_exact(load_scene(source_folder() / "scenes/many_spots.yaml").scene, {9, 9}) <
         1.5);
@@ -93,7 +93,7 @@ TEST_CASE("a choice among many spots varies little more than one that weighs eac
   CHECK(variance_over_exact(spots_over_floor(20), {240, 12}) < 1.5);
 }
 
-TEST_CASE("lights side by side are weighed as each alone, to the last bit, and never as NaN") {
+TEST_CASE("Lights are weighed together with the same bits as alone, and never as NaN") {
   for (std::uint32_t trial = 0; trial < 2000; ++trial) {
     Sampler sampler(0, 0, trial, 3);
     const auto any_point = [&] {

@@ -49,7 +49,7 @@ void check_closed_emitters(int samples, double tolerance) {
 
 }  // namespace
 
-TEST_CASE("white furnace: a white diffuse box, inside and out, under a constant sky") {
+TEST_CASE("White furnace: a white diffuse box, inside and out, under a constant sky") {
   SceneBuilder builder;
   builder.add(BoxShape{}, builder.diffuse(1), turned(30, glm::normalize(DVec3(1, 2, 3))));
   builder.light(EnvironmentLight{});
@@ -61,7 +61,7 @@ TEST_CASE("white furnace: a white diffuse box, inside and out, under a constant 
   }
 }
 
-TEST_CASE("white furnace: an open white box keeps no light to itself") {
+TEST_CASE("White furnace: an open white box keeps no light to itself") {
   SceneBuilder builder;
   const MaterialId white = builder.diffuse(1);
   builder.add(RectangleShape{{2, 2}}, white, moved({0, -0.3, 0}));
@@ -76,7 +76,7 @@ TEST_CASE("white furnace: an open white box keeps no light to itself") {
   check_radiance_one(builder.scene);
 }
 
-TEST_CASE("white furnace: a coarse ball with smooth normals does not shadow itself") {
+TEST_CASE("White furnace: a coarse ball with smooth normals does not shadow itself") {
   for (const Strategy strategy : {Strategy::mis, Strategy::nee, Strategy::bsdf}) {
     SceneBuilder builder = ball_under_sky(DiffuseMaterial{{Vec3(1), no_texture}}, 64);
     builder.scene.meshes[0] = make_mesh(SphereShape{0.5, 24, 12});
@@ -85,22 +85,22 @@ TEST_CASE("white furnace: a coarse ball with smooth normals does not shadow itse
   }
 }
 
-TEST_CASE("white furnace: glass and mirror") {
+TEST_CASE("White furnace: glass and mirror") {
   check_radiance_one(ball_under_sky(GlassMaterial{}, 256).scene);
   check_radiance_one(ball_under_sky(MirrorMaterial{}, 16).scene);
 }
 
-TEST_CASE("white furnace: glass and mirror, a million samples", "[full]") {
+TEST_CASE("White furnace: glass and mirror, a million samples", "[full]") {
   check_radiance_one(ball_under_sky(GlassMaterial{}, 1024).scene);
   check_radiance_one(ball_under_sky(MirrorMaterial{}, 1024).scene);
 }
 
-TEST_CASE("radiance is 1 anywhere inside a closed emitter") { check_closed_emitters(128, 1e-2); }
-TEST_CASE("radiance is 1 anywhere inside a closed emitter, a million samples", "[full]") {
+TEST_CASE("Radiance is 1 anywhere inside a closed emitter") { check_closed_emitters(128, 1e-2); }
+TEST_CASE("Radiance is 1 anywhere inside a closed emitter, a million samples", "[full]") {
   check_closed_emitters(1024, 5e-3);
 }
 
-TEST_CASE("an emitter is as bright within glass, through a mask and when seen directly") {
+TEST_CASE("An emitter is as bright within glass, through a mask and when seen directly") {
   SceneBuilder builder;
   const LightId lamp = builder.light(AreaLight{Vec3(1), false});
   builder.add(SphereShape{0.2, 16, 8}, 0, glm::dmat4(1), lamp);
@@ -121,7 +121,7 @@ TEST_CASE("an emitter is as bright within glass, through a mask and when seen di
   CHECK(sigmas_off(estimate(builder.scene), 0.25) < 4);
 }
 
-TEST_CASE("shadow segments lose at masked surfaces what rays do") {
+TEST_CASE("Masked surfaces dim shadow segments like rays") {
   for (const Strategy strategy : {Strategy::nee, Strategy::bsdf, Strategy::mis}) {
     SceneBuilder builder;
     builder.add(RectangleShape{{2, 2}}, builder.diffuse(1));

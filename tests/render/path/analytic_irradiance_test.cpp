@@ -45,14 +45,16 @@ const std::array strategies{Strategy::mis, Strategy::nee, Strategy::bsdf};
 
 }  // namespace
 
-TEST_CASE("irradiance under a point light") {
+TEST_CASE("Irradiance under a point light agrees with the closed form") {
   SceneBuilder builder = floor_seen_from_aside();
   builder.light(PointLight{{0.3, 0.5, -0.2}, Vec3(3)});
   const double d2 = 0.09 + 0.25 + 0.04;
   check_irradiance(builder.scene, 3 / d2 * 0.5 / std::sqrt(d2));
 }
 
-TEST_CASE("irradiance under a spot light, inside, on the slope of and outside its cone") {
+TEST_CASE(
+    "Irradiance under a spot agrees with the closed form inside, on the slope of and outside its "
+    "cone") {
   for (const double tilt : {0.0, 17.0, 27.0, 40.0}) {
     SceneBuilder builder = floor_seen_from_aside();
     const double angle = glm::radians(tilt);
@@ -63,7 +65,7 @@ TEST_CASE("irradiance under a spot light, inside, on the slope of and outside it
   }
 }
 
-TEST_CASE("irradiance under parallel light and under a sun") {
+TEST_CASE("Irradiance under parallel light and under a sun agrees with the closed form") {
   for (const double angle : {0.0, 0.53, 20.0}) {
     for (const Strategy strategy : strategies) {
       if (angle == 0.53 && strategy == Strategy::bsdf) continue;  // some 20 samples would find it
@@ -75,7 +77,7 @@ TEST_CASE("irradiance under parallel light and under a sun") {
   }
 }
 
-TEST_CASE("irradiance under a rectangle") {
+TEST_CASE("Irradiance under a rectangle agrees with the closed form") {
   for (const Strategy strategy : strategies) {
     for (const double height : {0.05, 1.0, 30.0}) {
       SceneBuilder builder = floor_seen_from_aside();
@@ -95,7 +97,7 @@ TEST_CASE("irradiance under a rectangle") {
   }
 }
 
-TEST_CASE("irradiance under a rectangle whose image is half black") {
+TEST_CASE("Irradiance under a rectangle whose image is half black agrees with the closed form") {
   const TemporaryFolder folder;
   Image image{256, 1, std::vector<Vec3>(256, Vec3(0))};
   std::fill(image.pixels.begin() + 128, image.pixels.end(), Vec3(0.5F));
@@ -116,7 +118,7 @@ TEST_CASE("irradiance under a rectangle whose image is half black") {
   }
 }
 
-TEST_CASE("irradiance under a disk, from many triangles") {
+TEST_CASE("Irradiance under a disk of many triangles agrees with the closed form") {
   for (const Strategy strategy : strategies) {
     SceneBuilder builder = floor_seen_from_aside();
     const LightId disk = builder.light(AreaLight{Vec3(2), false});
@@ -133,7 +135,7 @@ TEST_CASE("irradiance under a disk, from many triangles") {
   }
 }
 
-TEST_CASE("a two-sided panel lights both sides, a one-sided one its front only") {
+TEST_CASE("A two-sided panel lights both sides, a one-sided one its front only") {
   for (const bool two_sided : {false, true}) {
     SceneBuilder builder = floor_seen_from_aside();
     const LightId panel = builder.light(AreaLight{Vec3(2), two_sided});
@@ -143,7 +145,7 @@ TEST_CASE("a two-sided panel lights both sides, a one-sided one its front only")
   }
 }
 
-TEST_CASE("a lamp lying on a wall does not shade itself, nor does the wall leak") {
+TEST_CASE("A lamp lying on a wall does not shade itself, nor does the wall leak") {
   // A panel on the wall x = -1 lights the floor; another light is behind the wall. Where panel and
   // wall are one plane, chance decides which of them a ray meets, so there it is asked for only.
   for (const double gap : {0.0, 1e-5}) {

@@ -47,7 +47,7 @@ double mean_of(const Scene& scene) {
 
 }  // namespace
 
-TEST_CASE("a bump is a bump, also where texture coordinates are mirrored") {
+TEST_CASE("A bump stays a bump where texture coordinates are mirrored") {
   const Vec3 lean = glm::normalize(Vec3(0.3F, 0.5F, 0.8F));  // by u, v and normal
   struct Layout {
     Vec2 at_0, at_x, at_y;

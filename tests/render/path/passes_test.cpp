@@ -44,11 +44,11 @@ std::vector<int> samples_after_passes(RenderOptions options) {
 
 }  // namespace
 
-TEST_CASE("after a pass every pixel has as many samples", "[threads]") {
+TEST_CASE("After a pass every pixel has as many samples", "[threads]") {
   CHECK(samples_after_passes({}) == std::vector<int>{1, 2, 4, 8, 16, 32, 48, 50});
 }
 
-TEST_CASE("passes are as short as is asked for, down to a sample", "[threads]") {
+TEST_CASE("Passes are as short as requested, down to one sample", "[threads]") {
   RenderOptions options;
   options.pass_seconds = 1e-9;
   CHECK(samples_after_passes(options).size() == 50);
@@ -56,7 +56,7 @@ TEST_CASE("passes are as short as is asked for, down to a sample", "[threads]") 
   CHECK(samples_after_passes(options).size() == 8);
 }
 
-TEST_CASE("a render can be ended between passes", "[threads]") {
+TEST_CASE("A render can be ended between passes", "[threads]") {
   RenderOptions options;
   std::atomic<bool> stop = false;
   options.stop = &stop;
@@ -73,7 +73,7 @@ TEST_CASE("a render can be ended between passes", "[threads]") {
   CHECK_THROWS_WITH(render_scene(ball(), options), "enough");
 }
 
-TEST_CASE("each tile is told of once a pass, with the samples that it then has", "[threads]") {
+TEST_CASE("Each tile is reported once a pass, with its samples", "[threads]") {
   std::mutex mutex;
   int finished = 0;  // samples of every pixel
   std::size_t pixels = 0;

@@ -25,7 +25,7 @@ struct Random {
 
 }  // namespace
 
-TEST_CASE("rays spawned from a convex body never meet it again") {
+TEST_CASE("Rays spawned from a convex body never meet it again") {
   Random random;
   for (const double scale : {1e-6, 1.0, 1e7}) {
     for (const bool far_away : {false, true}) {
@@ -69,7 +69,7 @@ TEST_CASE("rays spawned from a convex body never meet it again") {
   }
 }
 
-TEST_CASE("segments to a lamp never end in the lamp itself") {
+TEST_CASE("Segments to a lamp never end in the lamp itself") {
   Random random;
   for (int scene = 0; scene < 60; ++scene) {
     SceneBuilder builder(scene % 3 == 0 ? 1e-6 : scene % 3 == 1 ? 1.0 : 1e7);
@@ -103,7 +103,7 @@ TEST_CASE("segments to a lamp never end in the lamp itself") {
   }
 }
 
-TEST_CASE("a coarse smooth ball has the terminator of the ball it stands for") {
+TEST_CASE("A coarse smooth ball has the terminator of a true ball") {
   const double radius = 0.5;
   const int segments = 24, size = 256;
   SceneBuilder builder;
@@ -144,7 +144,7 @@ TEST_CASE("a coarse smooth ball has the terminator of the ball it stands for") {
   CHECK(lit == (size / 2 - 1) * size / 8);
 }
 
-TEST_CASE("no light comes into closed coarse bodies, whatever their normals say") {
+TEST_CASE("No light leaks into closed coarse bodies, whatever their normals") {
   for (const Shape& shape :
        std::array<Shape, 2>{SphereShape{1, 12, 6}, TorusShape{1, 0.6, 12, 8}}) {
     SceneBuilder builder;
@@ -159,7 +159,7 @@ TEST_CASE("no light comes into closed coarse bodies, whatever their normals say"
   }
 }
 
-TEST_CASE("flat facets are left alone to the last bit") {
+TEST_CASE("Flat facets are left alone to the last bit") {
   const World turned_box = [] {
     SceneBuilder builder;
     builder.add(BoxShape{}, 0, turned(20, glm::normalize(DVec3(1, 2, 3))));
@@ -188,7 +188,7 @@ TEST_CASE("flat facets are left alone to the last bit") {
   CHECK(identical(with.film, render_scene(builder.scene).film));
 }
 
-TEST_CASE("light fades out where it grazes a flat facet with a leaning normal") {
+TEST_CASE("Light fades out where it grazes a flat facet with a leaning normal") {
   CHECK(terminator_fade({0, 1, 0}, {0, 1, 0}, glm::normalize(Vec3(5, 0.001F, 0))) == 1);
 
   SceneBuilder builder;
@@ -208,7 +208,7 @@ TEST_CASE("light fades out where it grazes a flat facet with a leaning normal") 
   }
 }
 
-TEST_CASE("a shading normal never turns away from the eye") {
+TEST_CASE("A shading normal never turns away from the eye") {
   const Vec3 geometric(0, 0, 1), wo = glm::normalize(Vec3(1, 0, 0.1F));
   const Vec3 shading = glm::normalize(Vec3(-1, 0, 0.5F));
   const Vec3 seen = visible_normal(shading, geometric, wo);

@@ -68,7 +68,7 @@ void check_strategies_agree(Scene scene) {
 
 }  // namespace
 
-TEST_CASE("next-event estimation, BSDF sampling and both together agree") {
+TEST_CASE("Next-event estimation, BSDF sampling and both together agree") {
   check_strategies_agree(room().scene);
   check_strategies_agree(coarse_ball().scene);
 }
@@ -84,7 +84,7 @@ TEST_CASE("Russian roulette does not change the mean") {
   CHECK(welch_p(without, with) > 0.01);
 }
 
-TEST_CASE("a scene scaled by a power of two gives the identical picture") {
+TEST_CASE("A scene scaled by a power of two gives the identical picture") {
   const auto film_at = [](int exponent) {
     Scene scene = room(std::ldexp(1.0, exponent)).scene;
     scene.film.width = scene.film.height = 12;
@@ -98,7 +98,7 @@ TEST_CASE("a scene scaled by a power of two gives the identical picture") {
   }
 }
 
-TEST_CASE("neither the unit of length nor the place changes the mean") {
+TEST_CASE("Neither the unit of length nor the place changes the mean") {
   Scene scene = room().scene;
   scene.render.samples = fewer_if_sanitized(256);
   const Estimate reference = estimate(scene);
@@ -116,7 +116,7 @@ TEST_CASE("neither the unit of length nor the place changes the mean") {
   for (const double scale : {1e-6, 1.0, 1e7}) check(scale, DVec3(4e6, -4e6, 4e6) * scale);
 }
 
-TEST_CASE("pictures do not depend on the number of threads", "[threads]") {
+TEST_CASE("Pictures do not depend on the number of threads", "[threads]") {
   const Scene scene = room().scene;
   RenderOptions options;
   options.threads = 1;
@@ -130,14 +130,14 @@ TEST_CASE("pictures do not depend on the number of threads", "[threads]") {
   }
 }
 
-TEST_CASE("pictures do not depend on what answers the rays") {
+TEST_CASE("Pictures do not depend on the accelerator") {
   Scene scene = room().scene;
   scene.render.samples = 2;
   CHECK(identical(render_scene(scene, {}, Answer::global_bvh).film,
                   render_scene(scene, {}, Answer::brute_force).film));
 }
 
-TEST_CASE("pictures depend on the seed and not on the order of passes or crops") {
+TEST_CASE("Pictures depend on the seed and not on the order of passes or crops") {
   Scene scene = room().scene;
   scene.film.width = 80;
   scene.render.samples = 5;
@@ -154,7 +154,7 @@ TEST_CASE("pictures depend on the seed and not on the order of passes or crops")
   CHECK_FALSE(identical(part.film, render_scene(scene).film));
 }
 
-TEST_CASE("a stopped render keeps what it has") {
+TEST_CASE("A stopped render keeps what it has") {
   Scene scene = room().scene;
   scene.render.samples = 1000000;
   std::atomic<bool> stop = false;
@@ -172,7 +172,7 @@ TEST_CASE("a stopped render keeps what it has") {
   CHECK(result.film.at(3, 3).samples >= 4);
 }
 
-TEST_CASE("a time limit ends a render after whole passes") {
+TEST_CASE("A time limit ends a render after whole passes") {
   Scene scene = room().scene;
   scene.render.samples = 1000000;
   RenderOptions options;
@@ -186,7 +186,7 @@ TEST_CASE("a time limit ends a render after whole passes") {
   }
 }
 
-TEST_CASE("a time limit ends a render in the midst of a pass that takes longer than expected") {
+TEST_CASE("A time limit ends a render in the midst of a pass that takes longer than expected") {
   Scene scene = room().scene;
   scene.film.width = 160;
   scene.film.height = 128;

@@ -70,9 +70,9 @@ void check_memory_of(int renders) {
 }  // namespace
 
 // Sanitizers have allocators of their own, and look for leaks themselves.
-TEST_CASE("renders in one process do not let memory grow") {
+TEST_CASE("Renders in one process do not let memory grow") {
   if (!test::sanitized) check_memory_of(75);
 }
-TEST_CASE("five hundred renders in one process do not let memory grow", "[full]") {
+TEST_CASE("Five hundred renders in one process do not let memory grow", "[full]") {
   if (!test::sanitized) check_memory_of(500);
 }

@@ -75,7 +75,7 @@ int samples_of(const Film& film, const PixelRect& tile) {
 
 }  // namespace
 
-TEST_CASE("the tiles of a session are its film, each pixel once") {
+TEST_CASE("The tiles of a session are its film, each pixel once") {
   const Prepared prepared(room());
   const RenderSession session = prepared.session();
   const Film& film = session.film();
@@ -91,7 +91,7 @@ TEST_CASE("the tiles of a session are its film, each pixel once") {
   CHECK(std::ranges::all_of(covered.pixels, [](const FilmPixel& p) { return p.samples == 1; }));
 }
 
-TEST_CASE("any split into passes gives the film of a render", "[threads]") {
+TEST_CASE("Any split into passes gives the film of a render", "[threads]") {
   Prepared prepared(room());
   // More than are traced together, too.
   const std::vector<std::vector<int>> splits_of_5{{5}, {1, 4}, {4, 1}, {2, 2, 1}, {1, 1, 1, 1, 1}};
@@ -115,7 +115,7 @@ TEST_CASE("any split into passes gives the film of a render", "[threads]") {
   }
 }
 
-TEST_CASE("tiles may come in any order and in several calls", "[threads]") {
+TEST_CASE("Tiles may come in any order and in several calls", "[threads]") {
   const Prepared prepared(room());
   const RenderResult whole = prepared.render();
   RenderSession session = prepared.session();
@@ -132,7 +132,7 @@ TEST_CASE("tiles may come in any order and in several calls", "[threads]") {
   CHECK(session.counts().rays == whole.counts.rays);
 }
 
-TEST_CASE("a hundred random splits of the samples add up to the picture of the whole") {
+TEST_CASE("A hundred random splits of the samples add up to the picture of the whole") {
   Prepared prepared(room());
   prepared.scene.film.width = 24;
   prepared.scene.film.height = 16;
@@ -172,7 +172,7 @@ TEST_CASE("a hundred random splits of the samples add up to the picture of the w
   }
 }
 
-TEST_CASE("a restored film goes on as if nothing had happened") {
+TEST_CASE("A restored film goes on as if nothing had happened") {
   const Prepared prepared(room());
   const RenderResult whole = prepared.render();
   for (const int before : {1, 3}) {
@@ -188,7 +188,7 @@ TEST_CASE("a restored film goes on as if nothing had happened") {
   }
 }
 
-TEST_CASE("a render goes on from a film, some tiles of which are behind") {
+TEST_CASE("A render goes on from a film, some tiles of which are behind") {
   const Prepared prepared(room());
   const RenderResult whole = prepared.render();
   const Tiles odd{1, 3, 5, 7};
@@ -205,7 +205,7 @@ TEST_CASE("a render goes on from a film, some tiles of which are behind") {
   CHECK(same_to_the_last_bit(result.film, whole.film));
 }
 
-TEST_CASE("a film of other pixels is refused") {
+TEST_CASE("A film of other pixels is refused") {
   const Prepared prepared(room());
   RenderSession session = prepared.session();
   session.render_pass(all_tiles(session), 0, 1);
@@ -231,7 +231,7 @@ TEST_CASE("a film of other pixels is refused") {
   CHECK(same_to_the_last_bit(session.film(), own));
 }
 
-TEST_CASE("a stopped pass tells which tiles were finished", "[threads]") {
+TEST_CASE("A stopped pass tells which tiles were finished", "[threads]") {
   const Prepared prepared(room());
   const RenderResult whole = prepared.render();
   for (const int threads : {1, 3}) {
@@ -270,7 +270,7 @@ TEST_CASE("a stopped pass tells which tiles were finished", "[threads]") {
   }
 }
 
-TEST_CASE("a pass that makes no sense is refused, with nothing done") {
+TEST_CASE("An invalid pass is refused without any effect") {
   const Prepared prepared(room());
   RenderSession session = prepared.session();
   const auto refused = [&](const Tiles& tiles, int first, int count, const char* message) {
@@ -285,7 +285,7 @@ TEST_CASE("a pass that makes no sense is refused, with nothing done") {
   CHECK(session.counts().rays == RenderCounts{}.rays);
 }
 
-TEST_CASE("a session counts what traversal does if asked to") {
+TEST_CASE("A session counts what traversal does if asked to") {
   const Prepared prepared(room());
   for (const bool asked : {false, true}) {
     RenderSession session = prepared.session({0, asked});
@@ -294,7 +294,7 @@ TEST_CASE("a session counts what traversal does if asked to") {
   }
 }
 
-TEST_CASE("a texture that is not there ends a session before it begins") {
+TEST_CASE("A missing texture ends a session before it starts") {
   Scene scene = room();
   scene.textures.push_back(ImageTexture{"no_such_texture.png"});
   const Prepared prepared(scene);

@@ -26,7 +26,7 @@ Scene colored_square(bool asked_for) {
 
 }  // namespace
 
-TEST_CASE("colors of vertices multiply the base color, interpolated") {
+TEST_CASE("Colors of vertices multiply the base color, interpolated") {
   for (const bool asked_for : {true, false}) {
     const Film film = render_scene(colored_square(asked_for)).film;
     for (int y = 0; y < 8; ++y)

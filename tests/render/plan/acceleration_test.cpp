@@ -36,7 +36,7 @@ Scene scene_with_area() {
 
 }  // namespace
 
-TEST_CASE("acceleration uses the areas that a scene declares, and changes no pixel") {
+TEST_CASE("Acceleration uses the areas that a scene declares, and changes no pixel") {
   const Scene scene = scene_with_area();
   const World world = make_world(scene);
   const Acceleration acceleration = make_acceleration(world, scene);
@@ -56,7 +56,7 @@ TEST_CASE("acceleration uses the areas that a scene declares, and changes no pix
     CHECK(by_areas.pixels[i].sum == expected.pixels[i].sum);
 }
 
-TEST_CASE("declared areas are built, derived ones are not yet worth it") {
+TEST_CASE("Declared areas are built, derived ones are not yet worth it") {
   Scene scene = scene_with_area();
   const World world = make_world(scene);
   const Acceleration acceleration = make_acceleration(world, scene);
@@ -69,7 +69,7 @@ TEST_CASE("declared areas are built, derived ones are not yet worth it") {
   CHECK(make_acceleration(world, scene).name == "bvh");
 }
 
-TEST_CASE("lights have grids where so many rays go to them that it pays") {
+TEST_CASE("Lights with enough rays get grids") {
   // What sanitizers slow down more is of no interest.
   if (test::sanitized) return;
   Scene scene = scene_with_area();
@@ -97,7 +97,7 @@ TEST_CASE("lights have grids where so many rays go to them that it pays") {
   for (const GridPlan& plan : few.grid_plans) CHECK(!plan.build);
 }
 
-TEST_CASE("an accelerator that is asked for by name is made, and no other") {
+TEST_CASE("The named accelerator is made, and no other") {
   const Scene scene = scene_with_area();
   const World world = make_world(scene);
   for (const AcceleratorName& known : accelerator_names()) {

@@ -56,7 +56,7 @@ void check_reason(const Scene& scene, std::string_view reason) {
 
 }  // namespace
 
-TEST_CASE("a grid is built where it is expected to save more than it costs") {
+TEST_CASE("A grid is built where it is expected to save more than it costs") {
   const GridCircumstances at{.triangles = 1000, .bvh_build_seconds = 2};
   const GridPlan plan = plan_grid(5, point, pilot, at);
   CHECK(plan.build);
@@ -68,13 +68,13 @@ TEST_CASE("a grid is built where it is expected to save more than it costs") {
   CHECK(plan.predicted_saving == Approx(1e6 * 6.25e-6 - 3));
 }
 
-TEST_CASE("a grid is not built without rays") {
+TEST_CASE("A grid is not built without rays") {
   const GridPlan plan = plan_grid(0, point, {}, {.triangles = 1000});
   CHECK(!plan.build);
   CHECK(plan.reason == "none of the pilot's rays goes to it");
 }
 
-TEST_CASE("a grid is not built if its rays are cheap in the BVH") {
+TEST_CASE("A grid is not built if its rays are cheap in the BVH") {
   GridPilot cheap = pilot;
   cheap.cost = 3.9;
   CHECK(plan_grid(0, point, cheap, {}).reason == "the BVH answers its rays at least as fast");
@@ -89,7 +89,7 @@ TEST_CASE("a grid is not built if its rays are cheap in the BVH") {
         plan_grid(0, spot, pilot, at).predicted_build_seconds);
 }
 
-TEST_CASE("a grid is not built for few rays, of which threads make fewer") {
+TEST_CASE("A grid is not built for few rays, of which threads make fewer") {
   const std::string_view too_few = "too few rays are expected: it would cost more than it saves";
   GridPilot few = pilot;
   few.expected_rays = 3.0e5;
@@ -100,7 +100,7 @@ TEST_CASE("a grid is not built for few rays, of which threads make fewer") {
   CHECK(plan_grid(0, point, pilot, {.bvh_build_seconds = 1, .threads = 3}).reason == too_few);
 }
 
-TEST_CASE("a grid is not built beyond the memory that is left") {
+TEST_CASE("A grid is not built beyond the memory that is left") {
   GridCircumstances at{.triangles = 1000, .memory_left = 40'000};
   CHECK(plan_grid(0, point, pilot, at).build);
   --at.memory_left;
@@ -108,7 +108,7 @@ TEST_CASE("a grid is not built beyond the memory that is left") {
   CHECK(plan_grid(0, point, pilot, at).reason == would_be_too_large);
 }
 
-TEST_CASE("a grid that was built stays if it is faster and fits") {
+TEST_CASE("A grid that was built stays if it is faster and fits") {
   const GridCircumstances at{.bvh_build_seconds = 1, .threads = 2, .memory_left = 1000};
   const GridPlan planned = plan_grid(0, point, pilot, at);
   GridPlan plan = planned;
@@ -129,7 +129,7 @@ TEST_CASE("a grid that was built stays if it is faster and fits") {
   CHECK(plan.reason == "the pilot's rays were no faster once it was built");
 }
 
-TEST_CASE("there are no grids where none can be of use") {
+TEST_CASE("Scenes that cannot profit get no grids") {
   Scene scene = lit_ball();
   SECTION("no derived areas") {
     scene.influence_areas.derive = false;
@@ -159,7 +159,7 @@ TEST_CASE("there are no grids where none can be of use") {
   }
 }
 
-TEST_CASE("only lights whose rays share a point or almost a direction have plans") {
+TEST_CASE("Only lights whose rays share a point or almost a direction have plans") {
   Scene scene = lit_ball();
   scene.lights.push_back({"sun", DirectionalLight{}});
   scene.lights.push_back({"sky", EnvironmentLight{}});
@@ -172,7 +172,7 @@ TEST_CASE("only lights whose rays share a point or almost a direction have plans
   }
 }
 
-TEST_CASE("no grid is built where memory suffices for the BVH only") {
+TEST_CASE("No grid is built where memory suffices for the BVH only") {
   Scene scene = lit_ball();
   const World world = make_world(scene);
   for (const std::uint64_t more : {std::uint64_t{0}, 39 * world.triangles().size()}) {
@@ -187,7 +187,7 @@ TEST_CASE("no grid is built where memory suffices for the BVH only") {
   }
 }
 
-TEST_CASE("memory stays within what a scene allows, whatever that is") {
+TEST_CASE("Memory stays within the limit of a scene") {
   Scene scene = lit_ball();
   const World world = make_world(scene);
   const AcceleratorMemory all = make_acceleration(world, scene, "light").accelerator->memory();
@@ -201,7 +201,7 @@ TEST_CASE("memory stays within what a scene allows, whatever that is") {
   }
 }
 
-TEST_CASE("of the grids that are asked for, those are left out that memory does not suffice for") {
+TEST_CASE("Requested grids that exceed the memory are left out") {
   Scene scene = lit_ball();
   const World world = make_world(scene);
   const Acceleration all = make_acceleration(world, scene, "light");
@@ -217,7 +217,7 @@ TEST_CASE("of the grids that are asked for, those are left out that memory does 
                            &GridPlan::reason) == 1);
 }
 
-TEST_CASE("of declared areas as many are built as memory suffices for") {
+TEST_CASE("Declared areas are built as far as memory allows") {
   Scene scene = lit_ball();
   for (const double far : {6.0, 5.0, 4.1}) {
     PointAreaDeclaration area;

@@ -47,7 +47,7 @@ constexpr double samples = 100 * 80 * 16;
 
 }  // namespace
 
-TEST_CASE("of a floor that fills the picture, every sample sends a ray to the sun") {
+TEST_CASE("Every sample of a floor that fills the picture sends a ray to the sun") {
   Scene scene = floor_scene();
   add_sun(scene, {0, -1, 0.2});
   CHECK(pilot_of(scene).at(0).expected == Approx(samples).epsilon(0.02));
@@ -58,7 +58,7 @@ TEST_CASE("of a floor that fills the picture, every sample sends a ray to the su
   CHECK(pilot_of(scene).at(0).expected == Approx(samples / 4).epsilon(0.02));
 }
 
-TEST_CASE("lights share the rays, those that have no bundle too") {
+TEST_CASE("Lights share the rays, also lights without a bundle") {
   Scene scene = floor_scene();
   add_sun(scene, {0, -1, 0.2});
   scene.lights.push_back({"bulb", PointLight{DVec3(0, 4, 0), Vec3(10)}});
@@ -68,7 +68,7 @@ TEST_CASE("lights share the rays, those that have no bundle too") {
   for (const PilotRays& pilot : pilots) CHECK(pilot.expected == Approx(samples / 3).epsilon(0.02));
 }
 
-TEST_CASE("within a closed room, paths go on, and are counted thrice") {
+TEST_CASE("Paths continue within a closed room and are counted three times") {
   Scene scene = floor_scene();
   scene.meshes = {make_mesh(BoxShape{{8, 8, 8}})};
   scene.lights.push_back({"bulb", PointLight{DVec3(0, 1, 0), Vec3(10)}});
@@ -78,7 +78,7 @@ TEST_CASE("within a closed room, paths go on, and are counted thrice") {
   }
 }
 
-TEST_CASE("a light behind all that the camera sees gets no rays") {
+TEST_CASE("A light behind all that the camera sees gets no rays") {
   Scene scene = floor_scene();
   scene.render.max_depth = 8;
   SECTION("sun") { add_sun(scene, {0, 1, 0.2}); }
@@ -92,7 +92,7 @@ TEST_CASE("a light behind all that the camera sees gets no rays") {
   CHECK(pilots[0].expected == 0);
 }
 
-TEST_CASE("a spot gets rays of what lies in its cone") {
+TEST_CASE("A spot gets rays of what lies in its cone") {
   Scene scene = floor_scene();
   scene.lights.push_back({"spot", SpotLight{DVec3(0, 4, 0), DVec3(0, -1, 0), Vec3(1), 10}});
   const double expected = pilot_of(scene).at(0).expected;
@@ -100,7 +100,7 @@ TEST_CASE("a spot gets rays of what lies in its cone") {
   CHECK(expected < samples / 2);
 }
 
-TEST_CASE("a pilot's rays name their light, and lead there") {
+TEST_CASE("A pilot's rays name their light, and lead there") {
   Scene scene = floor_scene();
   scene.lights.push_back({"sky", EnvironmentLight{}});
   scene.lights.push_back({"bulb", PointLight{DVec3(0, 2, 0), Vec3(10)}});
@@ -120,7 +120,7 @@ TEST_CASE("a pilot's rays name their light, and lead there") {
   CHECK(lowest == Approx(std::cos(glm::radians(10.0))).margin(0.003));
 }
 
-TEST_CASE("a pilot's rays are the same each time, and others with another seed") {
+TEST_CASE("A pilot's rays depend on the seed alone") {
   Scene scene = floor_scene();
   scene.render.max_depth = 3;
   scene.meshes = {make_mesh(BoxShape{{8, 8, 8}})};
@@ -140,7 +140,7 @@ TEST_CASE("a pilot's rays are the same each time, and others with another seed")
   CHECK(!same(first, pilot_of(scene)));
 }
 
-TEST_CASE("a scene of nothing has no pilot's rays") {
+TEST_CASE("An empty scene has no pilot's rays") {
   Scene scene = floor_scene();
   scene.meshes.clear();
   scene.instances.clear();

@@ -42,7 +42,7 @@ double correlation(const std::vector<Vec2>& a, const std::vector<Vec2>& b) {
 
 }  // namespace
 
-TEST_CASE("the first 2^k points of a pixel are a (0,k,2)-net in every dimension") {
+TEST_CASE("The first 2^k points of a pixel are a (0,k,2)-net in every dimension") {
   for (int k = 0; k <= 10; ++k) {
     for (std::uint32_t pixel = 0; pixel < 4; ++pixel) {
       for (int dimension = 0; dimension < 4; ++dimension) {
@@ -56,7 +56,7 @@ TEST_CASE("the first 2^k points of a pixel are a (0,k,2)-net in every dimension"
   }
 }
 
-TEST_CASE("the first 2^k numbers of a pixel lie in different intervals") {
+TEST_CASE("The first 2^k numbers of a pixel lie in different intervals") {
   for (int k = 0; k <= 12; ++k) {
     for (int dimension = 0; dimension < 5; ++dimension) {
       std::set<int> cells;
@@ -74,7 +74,7 @@ TEST_CASE("the first 2^k numbers of a pixel lie in different intervals") {
   }
 }
 
-TEST_CASE("dimensions, pixels and seeds are uncorrelated") {
+TEST_CASE("Dimensions, pixels and seeds are uncorrelated") {
   // Means over many pairs: a single pair of nets of n points correlates by up to about 1 / sqrt(n).
   constexpr int pairs = 400, log_count = 6;
   const double bound = 4 / std::sqrt(static_cast<double>(pairs << log_count));
@@ -90,7 +90,7 @@ TEST_CASE("dimensions, pixels and seeds are uncorrelated") {
   CHECK(std::abs(seeds) < bound);
 }
 
-TEST_CASE("one sample of every pixel is uniform") {
+TEST_CASE("One sample of every pixel is uniform") {
   // What a scramble must add to the net: each point alone is uniform, here in 16 x 16 cells.
   std::array<int, 256> count{};
   constexpr int pixels = 1 << 16;
@@ -105,7 +105,7 @@ TEST_CASE("one sample of every pixel is uniform") {
   CHECK(statistic > 255 - 4 * 22.6);
 }
 
-TEST_CASE("a smooth integrand converges faster than by chance") {
+TEST_CASE("A smooth integrand converges faster than by chance") {
   // Owen: the variance of a scrambled net falls as n^-3 (log n); by chance as n^-1.
   const auto variance = [](int log_count) {
     double sum = 0;
@@ -123,7 +123,7 @@ TEST_CASE("a smooth integrand converges faster than by chance") {
   CHECK(order > 2.3);
 }
 
-TEST_CASE("a sampler depends on its arguments alone") {
+TEST_CASE("A sampler depends on its arguments alone") {
   Sampler a(1, 2, 3, 4), b(1, 2, 3, 4);
   for (int i = 0; i < 10; ++i) {
     CHECK(a.next_1d() == b.next_1d());
@@ -137,7 +137,7 @@ TEST_CASE("a sampler depends on its arguments alone") {
   CHECK(c.next_2d() == Vec2{0x1.00a04p-5F, 0x1.b65a7cp-1F});
 }
 
-TEST_CASE("numbers drawn side by side are those of each sampler") {
+TEST_CASE("Numbers drawn side by side are those of each sampler") {
   DrawnNumbers numbers;
   std::vector<Sampler> samplers;
   for (std::uint32_t lane = 0; lane < DrawnNumbers::lanes; ++lane) {

@@ -24,7 +24,7 @@ void check(const ChiSquare& result) {
 
 }  // namespace
 
-TEST_CASE("directions on the sphere and hemispheres follow their densities") {
+TEST_CASE("Directions on the sphere and hemispheres follow their densities") {
   Rng rng(1);
   check(chi_square_sphere([](Rng& r) { return sample_uniform_sphere(uniform2(r)); },
                           [](const Vec3&) { return pdf_uniform_sphere(); }, count, rng));
@@ -32,7 +32,7 @@ TEST_CASE("directions on the sphere and hemispheres follow their densities") {
                           pdf_cosine_hemisphere, count, rng));
 }
 
-TEST_CASE("directions in cones follow their densities") {
+TEST_CASE("Directions in cones follow their densities") {
   Rng rng(2);
   // The last is the sun's: 1 - cos(0.265 degrees).
   for (const float one_minus_cos : {1.5F, 0.3F, 1.07e-5F}) {
@@ -50,7 +50,7 @@ TEST_CASE("directions in cones follow their densities") {
   }
 }
 
-TEST_CASE("points in the disk and the triangle are uniform") {
+TEST_CASE("Points in the disk and the triangle are uniform") {
   Rng rng(3);
   const auto disk = [](Rng& r) -> std::optional<DVec2> {
     const Vec2 p = sample_unit_disk(uniform2(r));
@@ -68,7 +68,7 @@ TEST_CASE("points in the disk and the triangle are uniform") {
       {{0, 0}, {1, 1}}, triangle, [](const DVec2& p) { return 2 * p.x; }, count, rng));
 }
 
-TEST_CASE("filter offsets follow the filters") {
+TEST_CASE("Filter offsets follow the filters") {
   Rng rng(4);
   const float radius = 1.5F;
   const auto offset = [&](Rng& r) -> std::optional<DVec2> {
@@ -94,7 +94,7 @@ TEST_CASE("filter offsets follow the filters") {
       [&](const DVec2&) { return 1.0 / 9; }, count, rng));
 }
 
-TEST_CASE("the corners of the unit square map to where they belong") {
+TEST_CASE("The corners of the unit square map to their places") {
   const float last = 1 - 0x1p-24F;
   for (const Vec2 u : {Vec2{0, 0}, Vec2{last, 0}, Vec2{0, last}, Vec2{last, last}, Vec2{0.5F}}) {
     CAPTURE(u.x, u.y);
@@ -113,7 +113,7 @@ TEST_CASE("the corners of the unit square map to where they belong") {
   }
 }
 
-TEST_CASE("the chi-square test rejects a wrong density") {
+TEST_CASE("The chi-square test rejects a wrong density") {
   Rng rng(5);
   const auto cosine = [](Rng& r) { return sample_cosine_hemisphere(uniform2(r)); };
   const auto uniform = [](const Vec3& w) { return w.z >= 0 ? 0.5 / glm::pi<double>() : 0; };

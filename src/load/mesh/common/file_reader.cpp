@@ -40,7 +40,7 @@ bool FileReader::fill(std::size_t count) {
   const auto more =
       static_cast<std::size_t>(std::min<std::uint64_t>(buffer_.size() - end_, unread_));
   stream_.read(buffer_.data() + end_, static_cast<std::streamsize>(more));
-  // Someone may have cut it since.
+  // Another process may have truncated the file.
   if (static_cast<std::size_t>(stream_.gcount()) != more)
     throw MeshFileError("the file cannot be read to its end");
   end_ += more;
@@ -61,7 +61,7 @@ std::optional<std::string_view> FileReader::line() {
   const void* found = nullptr;
   while (true) {
     const std::size_t held = end_ - at_;
-    // A null pointer may not be searched, not even for nothing.
+    // memchr must not be called with a null pointer, not even for 0 bytes.
     if (held > searched)
       found = std::memchr(buffer_.data() + at_ + searched, line_end_, held - searched);
     if (found != nullptr || unread_ == 0) break;

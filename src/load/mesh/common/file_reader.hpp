@@ -1,5 +1,4 @@
-// A file from its beginning to its end, a block at a time: lines of text, bytes, or one after the
-// other.
+// Reads a file from beginning to end in blocks, as lines of text, as bytes, or both in turn.
 #pragma once
 
 #include <cstddef>
@@ -23,7 +22,7 @@ class FileReader {
   // nothing at the end of the file. Valid until the next call. Throws MeshFileError if it is longer
   // than any that makes sense.
   [[nodiscard]] std::optional<std::string_view> line();
-  // That of the line read last, from 1.
+  // The number of the last line read, from 1.
   [[nodiscard]] int line_number() const { return line_number_; }
 
   // The next `count` bytes, valid until the next call; null if fewer are left.
@@ -34,18 +33,18 @@ class FileReader {
     return begin;
   }
 
-  // The next `count` bytes, or all that are left; valid until the next call. They stay the next.
+  // Peeks at the next `count` bytes, or at all remaining ones; valid until the next call.
   [[nodiscard]] std::string_view ahead(std::uint64_t count);
-  // Goes past bytes that were seen ahead.
+  // Skips bytes that ahead() has returned.
   void skip(std::size_t count) { at_ += count; }
 
   [[nodiscard]] char line_end() const { return line_end_; }
   [[nodiscard]] std::uint64_t size() const { return size_; }
-  // Bytes that have not been read yet.
+  // The number of bytes not read yet.
   [[nodiscard]] std::uint64_t left() const { return unread_ + (end_ - at_); }
 
  private:
-  // Reads on until `count` bytes are there; false if the file ends before.
+  // Fills the buffer with `count` bytes; returns false if the file ends before.
   bool fill(std::size_t count);
   void find_line_end();
 

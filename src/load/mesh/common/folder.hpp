@@ -1,4 +1,4 @@
-// Which files a mesh file may name: those in or under one folder.
+// Limits the files that a mesh file may name to one folder and those below it.
 #pragma once
 
 #include <filesystem>

@@ -37,7 +37,7 @@ bool is_convex(const std::vector<DVec2>& points) {
   return true;
 }
 
-// Whether the corner `at` of what is left of the polygon can be cut off.
+// Returns whether the corner `at` of the remaining polygon can be cut off.
 bool is_ear(const std::vector<DVec2>& points, const std::vector<std::uint32_t>& left,
             std::size_t at) {
   const std::size_t n = left.size();
@@ -64,7 +64,7 @@ void triangulate(std::span<const Vec3> corners, std::vector<UVec3>& triangles) {
   std::vector<std::uint32_t> left(corners.size());
   for (std::size_t i = 0; i < left.size(); ++i) left[i] = static_cast<std::uint32_t>(i);
   const std::vector<DVec2> points = flattened(corners);
-  // Going on where the last ear was keeps triangles from gathering in one corner.
+  // Continuing at the last ear keeps triangles from gathering in one corner.
   std::size_t at = 1;
   std::size_t misses = is_convex(points) ? left.size() : 0;
   while (left.size() > 3 && misses < left.size()) {
@@ -79,7 +79,7 @@ void triangulate(std::span<const Vec3> corners, std::vector<UVec3>& triangles) {
       ++misses;
     }
   }
-  // What is convex, or has no ears, is a fan.
+  // A convex polygon, or one without ears, becomes a fan.
   for (std::size_t i = 2; i < left.size(); ++i)
     triangles.emplace_back(left[0], left[i - 1], left[i]);
 }

@@ -1,4 +1,4 @@
-// Polygons into triangles.
+// Triangulates polygons.
 #pragma once
 
 #include <pah/geometry/vec.hpp>
@@ -7,9 +7,9 @@
 
 namespace pah {
 
-// Three corners or more, n - 2 triangles of their numbers into `triangles`, wound like the polygon.
-// Concave polygons are cut at their ears; what crosses itself or is not flat gives some
-// triangulation. Takes time with the square of the corners, if they are concave.
+// Adds n - 2 triangles of corner numbers for n >= 3 corners, wound like the polygon. Concave
+// polygons are cut at their ears, in quadratic time; polygons that cross themselves or are not flat
+// get some triangulation.
 void triangulate(std::span<const Vec3> corners, std::vector<UVec3>& triangles);
 
 }  // namespace pah

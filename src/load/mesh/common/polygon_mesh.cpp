@@ -21,7 +21,7 @@ struct Faces {
   std::size_t first_corner;
 };
 
-// Those of one material one after the other, in the order of the file.
+// Groups the runs by material, in the order of the file.
 std::vector<Faces> faces_by_material(const PolygonMesh& polygons, bool merged) {
   const std::size_t count = polygons.faces();
   std::vector<Run> runs = polygons.runs;
@@ -40,7 +40,7 @@ std::vector<Faces> faces_by_material(const PolygonMesh& polygons, bool merged) {
   return result;
 }
 
-// Makes the mesh of one material after the other.
+// Makes one mesh for each material.
 class TriangleMaker {
  public:
   TriangleMaker(PolygonMesh& polygons, const MeshFileOptions& options)
@@ -106,7 +106,7 @@ class TriangleMaker {
   }
 
  private:
-  // A vertex of the mesh at hand, by that of the file.
+  // The vertex of the current mesh that a vertex of the file became.
   struct Made {
     std::uint32_t material;
     std::uint32_t vertex;
@@ -149,7 +149,7 @@ class TriangleMaker {
     return result;
   }
 
-  // Without a normal if the file gives it none.
+  // Returns the values of a corner, without a normal if the file has none for it.
   [[nodiscard]] VertexValues values_of(std::uint32_t corner) const {
     const PolygonVertex vertex = vertex_of(corner);
     VertexValues values{polygons_.positions[vertex.position]};
@@ -172,7 +172,7 @@ class TriangleMaker {
                [](std::uint8_t& all, std::uint8_t part) { all = std::min(all, part); }) != 0;
   }
 
-  // False if the file gives none, or one of no length.
+  // Returns false if the file has no normal, or one of length 0.
   [[nodiscard]] bool unit_normal(const PolygonVertex& vertex, Vec3& normal) const {
     if (vertex.normal == no_index) return false;
     const DVec3 given(polygons_.normals[vertex.normal]);

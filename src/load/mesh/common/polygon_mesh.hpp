@@ -1,4 +1,4 @@
-// Polygons as OBJ, PLY and STL files have them, on their way to meshes of triangles.
+// Polygons of OBJ, PLY, STL and glTF files, and their conversion to meshes of triangles.
 #pragma once
 
 #include <cstdint>
@@ -23,8 +23,8 @@ struct PolygonMesh {
   std::vector<Vec2> uvs;
   std::vector<Vec3> normals;  // of any length
   std::vector<Vec3> colors;   // one per position, or none
-  // If there are none, vertex i has position, texture coordinate and normal i, and of those there
-  // are as many as positions, or none.
+  // If empty, vertex i has position, texture coordinate and normal i; there are then as many of
+  // these as positions, or none.
   std::vector<PolygonVertex> vertices;
   std::vector<std::uint32_t> corners;     // vertices of all faces, one face after the other
   std::vector<std::uint16_t> face_sizes;  // in corners: 3 to max_polygon_corners
@@ -43,15 +43,15 @@ struct PolygonMesh {
   [[nodiscard]] std::size_t face_size(std::size_t face) const {
     return triangles.empty() ? face_sizes[face] : 3;
   }
-  // Those of `corners` or `triangles`.
+  // All corners, from `corners` or from `triangles`.
   [[nodiscard]] std::span<std::uint32_t> all_corners() {
     if (triangles.empty()) return corners;
     return {&triangles.front().x, 3 * triangles.size()};
   }
 };
 
-// Triangles, with normals if `options` asks for the file's, as one mesh for each material that has
-// faces and a part for each mesh; as one of material 0 with `options.merged`.
+// Adds one mesh and one part for each material that has faces, or one mesh of material 0 with
+// `options.merged`; with normals if `options` asks for the file's.
 void make_meshes(PolygonMesh polygons, const MeshFileOptions& options, MeshFile& out);
 
 }  // namespace pah

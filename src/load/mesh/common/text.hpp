@@ -1,4 +1,4 @@
-// Words and numbers of mesh files that are text.
+// Reads words and numbers of text mesh files.
 #pragma once
 
 #include <string>
@@ -23,9 +23,9 @@ class Words {
     while (at_ < line_.size() && !is_blank(line_[at_])) ++at_;
     return line_.substr(begin, at_ - begin);
   }
-  // All that is left, without blanks around it.
+  // The remaining text of the line, without blanks around it.
   [[nodiscard]] std::string_view rest() const;
-  // From 1. The end of the line for an empty word.
+  // The word's column, from 1; the end of the line for an empty word.
   [[nodiscard]] int column_of(std::string_view word) const;
 
  private:
@@ -33,14 +33,14 @@ class Words {
   std::size_t at_ = 0;
 };
 
-// Whether the word is a decimal number that a float can hold, and the float nearest to it. What is
-// too small for one is 0.
+// Reads a decimal number as the nearest float; numbers below the smallest float become 0. Returns
+// false if the word is no number or exceeds the range of floats.
 [[nodiscard]] bool read_float(std::string_view word, float& value);
 
-// The line for an error message: not too long, and without control characters.
+// Shortens a line for an error message and replaces control characters.
 [[nodiscard]] std::string excerpt_of(std::string_view line);
 
-// A byte-order mark may stand before the first line of a text.
+// Removes a byte-order mark from the first line of a text.
 [[nodiscard]] std::string_view without_byte_order_mark(std::string_view line);
 
 }  // namespace pah

@@ -1,4 +1,4 @@
-// Vertices of triangles that arrive corner by corner, merged where they are equal to the last bit.
+// Merges vertices of triangles that are equal to the last bit.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +8,7 @@
 
 namespace pah {
 
-// What vertices have beside positions: all of them or none.
+// The attributes that all vertices have beside positions.
 struct VertexParts {
   bool normals = false;
   bool uvs = false;
@@ -22,8 +22,8 @@ struct VertexValues {
   Vec3 color{1};
 };
 
-// For each of `count` vertices, the first that it is equal to, which may be itself. `values` is
-// called from several threads.
+// Returns for each of `count` vertices the first equal one, possibly itself. `values` is called
+// from several threads.
 [[nodiscard]] std::vector<std::uint32_t> first_equal_vertices(
     std::uint32_t count, const std::function<VertexValues(std::uint32_t)>& values);
 
@@ -32,9 +32,10 @@ class MeshBuilder {
   MeshBuilder(const VertexParts& parts, std::size_t expected_triangles,
               std::size_t expected_vertices = 0);
 
-  // The index of the vertex. What the mesh has none of is ignored.
+  // Adds a vertex unless an equal one exists, and returns its index. Ignores attributes that the
+  // mesh does not have.
   std::uint32_t add_vertex(const VertexValues& values);
-  // The index of the vertex, which none before is equal to.
+  // Adds a vertex without a search for an equal one, and returns its index.
   std::uint32_t add_new_vertex(const VertexValues& values);
   void add_triangle(const UVec3& triangle) { mesh_.triangles.push_back(triangle); }
 

@@ -1,4 +1,4 @@
-// The numbers of a glTF file: buffers, views of them, accessors.
+// Reads the numbers of a glTF file: buffers, buffer views, accessors.
 #pragma once
 
 #include <string>
@@ -11,19 +11,19 @@ namespace pah {
 
 class GltfBuffers {
  public:
-  // Reads all buffers. Accessors of more than `max_count` elements are refused. The document has to
-  // outlive this. Throws MeshFileError, as do all that follow.
+  // Reads all buffers. Accessors with more than `max_count` elements are refused. The document must
+  // outlive the object. All functions throw MeshFileError.
   GltfBuffers(const GltfDocument& document, std::uint64_t max_count);
 
   [[nodiscard]] std::string_view view(std::size_t index) const;
 
-  // Elements of `components` numbers, one element after the other; what an accessor without data or
-  // a sparse one leaves open is 0. `name` is for errors.
+  // Returns the elements, `components` numbers each. Elements without data are 0. `name` is for
+  // errors.
   [[nodiscard]] std::vector<float> floats(std::size_t accessor, std::size_t components,
                                           const std::string& name) const;
-  // How many numbers an element has: "VEC3" are 3.
+  // The number of components of an element: 3 for "VEC3".
   [[nodiscard]] std::size_t components(std::size_t accessor) const;
-  // Whole numbers.
+  // Reads whole numbers.
   [[nodiscard]] std::vector<std::uint32_t> indices(std::size_t accessor) const;
 
  private:

@@ -1,4 +1,4 @@
-// A glTF 2.0 file, text or binary, as JSON and what the JSON refers to.
+// A glTF 2.0 file, text or binary: its JSON, and access to the files that the JSON names.
 #pragma once
 
 #include <cstdint>
@@ -21,13 +21,14 @@ struct GltfDocument {
 
   // The file that a URI names. Throws MeshFileError if it lies elsewhere.
   [[nodiscard]] std::filesystem::path path_of(const std::string& uri) const;
-  // The image that a URI names, which has to be there. Throws MeshFileError.
+  // The image that a URI names. Throws MeshFileError if it does not exist.
   [[nodiscard]] std::filesystem::path image_of(const std::string& uri) const;
   // The data of a "data:" URI, or of the file that another one names. Throws MeshFileError.
   [[nodiscard]] std::string data_of(const std::string& uri) const;
 };
 
-// Throws MeshFileError: also for what is needed to show the file and cannot be read.
+// Reads the document. Throws MeshFileError, also if the file requires an extension that cannot be
+// read.
 [[nodiscard]] GltfDocument read_gltf_document(const std::filesystem::path& file,
                                               const std::filesystem::path& folder,
                                               std::uint64_t max_bytes);

@@ -31,7 +31,7 @@ class Importer {
   }
 
  private:
-  // Each mesh once, however often it is placed.
+  // Reads each mesh once, even if several nodes use it.
   std::vector<GltfPrimitive> read(std::size_t mesh) {
     std::vector<GltfPrimitive> primitives = read_gltf_mesh(document_, buffers_, mesh, left_out_);
     for (const GltfPrimitive& primitive : primitives) {

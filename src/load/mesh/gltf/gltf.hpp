@@ -1,4 +1,4 @@
-// glTF 2.0: meshes, materials, cameras and lights of one scene.
+// Imports the meshes, materials, cameras and lights of one glTF 2.0 scene.
 #pragma once
 
 #include <filesystem>
@@ -6,8 +6,8 @@
 
 namespace pah {
 
-// Adds the file's meshes and parts to `out`; of a file that is not merged, its materials, textures,
-// cameras and lights too. What cannot be shown is named in a warning. Throws MeshFileError.
+// Adds the file's meshes and parts to `out`, and unless `options.merged` its materials, textures,
+// cameras and lights. A warning names what is left out. Throws MeshFileError.
 void import_gltf(const std::filesystem::path& file, const MeshFileOptions& options, MeshFile& out);
 
 }  // namespace pah

@@ -1,5 +1,5 @@
-// Values of a glTF document, checked as they are taken. What is not of the kind that glTF asks for
-// throws nlohmann::json::exception or MeshFileError.
+// Checked access to values of a glTF document. A value of the wrong type throws
+// nlohmann::json::exception or MeshFileError.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@ using Json = nlohmann::json;
 // The object under a key; empty if there is none.
 [[nodiscard]] const Json& child(const Json& object, const char* key);
 
-// A count or an offset; `otherwise` where there is none.
+// A count or an offset; `otherwise` if the key is missing.
 [[nodiscard]] std::uint64_t number(const Json& object, const char* key, std::uint64_t otherwise);
 
 // An index in a list of `size`.

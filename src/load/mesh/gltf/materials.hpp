@@ -1,4 +1,4 @@
-// The materials of glTF files.
+// Reads the materials of glTF files.
 #pragma once
 
 #include <pah/load/mesh_file.hpp>
@@ -9,8 +9,9 @@
 
 namespace pah {
 
-// Materials, their emission and textures into `out`, and behind them that of primitives without
-// one. Names of what is left out go into `left_out`. Throws MeshFileError.
+// Adds the materials, their emission and their textures to `out`, then the default material for
+// primitives without one. Adds the names of unsupported features to `left_out`. Throws
+// MeshFileError.
 void read_gltf_materials(const GltfDocument& document, const GltfBuffers& buffers, MeshFile& out,
                          std::vector<std::string>& left_out);
 

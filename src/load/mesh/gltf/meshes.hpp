@@ -1,4 +1,4 @@
-// The meshes of a glTF file.
+// Reads the meshes of a glTF file.
 #pragma once
 
 #include "load/mesh/common/polygon_mesh.hpp"
@@ -11,7 +11,8 @@ struct GltfPrimitive {
   PolygonMesh polygons;  // none if it is points or lines
 };
 
-// The primitives of one mesh. Names of what is left out go into `left_out`. Throws MeshFileError.
+// Returns the primitives of one mesh. Adds the names of unsupported features to `left_out`. Throws
+// MeshFileError.
 [[nodiscard]] std::vector<GltfPrimitive> read_gltf_mesh(const GltfDocument& document,
                                                         const GltfBuffers& buffers,
                                                         std::size_t mesh,

@@ -129,8 +129,8 @@ class NodeReader {
   MeshFile& out_;
 };
 
-// Every node hangs below one other at most, so following children ends; and not too deep. Returns
-// those below none.
+// Checks that every node has at most one parent and is not too deep, so that recursion ends.
+// Returns the roots.
 std::vector<std::size_t> check_nodes(const Json& nodes) {
   constexpr int max_depth = 256;
   std::vector<std::size_t> parent(nodes.size(), nodes.size());
@@ -160,7 +160,7 @@ std::vector<std::size_t> check_nodes(const Json& nodes) {
 std::vector<GltfPlace> read_gltf_nodes(const Json& document, MeshFile& out) {
   const Json& nodes = list(document, "nodes");
   std::vector<std::size_t> roots = check_nodes(nodes);
-  // Without a scene that is to be shown at first, the first is; without any, everything.
+  // Without a default scene the first one is shown; without scenes, all nodes are.
   const Json& scenes = list(document, "scenes");
   if (!scenes.empty()) {
     const bool chosen = document.contains("scene");

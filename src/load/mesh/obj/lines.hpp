@@ -1,4 +1,4 @@
-// The lines of an OBJ file's text, and the statements that they are of.
+// Splits the text of an OBJ file into lines and statements.
 #pragma once
 
 #include <string_view>
@@ -16,10 +16,10 @@ class ObjLines {
   ObjLines(std::string_view text, char line_end, int lines_before)
       : left_(text), line_end_(line_end), number_(lines_before) {}
 
-  // False at the end of the text.
+  // Goes to the next line; returns false at the end of the text.
   bool next();
 
-  // The line without blanks and what joins the next line to it at its end.
+  // The line without trailing blanks and backslash.
   [[nodiscard]] std::string_view text() const { return text_; }
   [[nodiscard]] int number() const { return number_; }   // from 1
   [[nodiscard]] bool begins() const { return begins_; }  // a statement

@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// What a library says of one material.
+// The statements of a library about one material.
 struct MtlMaterial {
   Vec3 diffuse{0.8F};
   Vec3 specular{0};
@@ -64,10 +64,10 @@ Material material_of(const std::string& name, const MtlMaterial& m) {
   return material;
 }
 
-// Keys that say nothing of how a surface looks here.
-constexpr std::string_view silent[] = {"Ka", "Tf", "sharpness", "map_aat", "map_Ka"};
+// Keys without an effect on our materials.
+constexpr std::string_view ignored_keys[] = {"Ka", "Tf", "sharpness", "map_aat", "map_Ka"};
 
-// How many words an option of a map has behind it, or none if it is no option.
+// The number of arguments of a map's option; nothing if the word is not an option.
 std::optional<int> words_of_option(std::string_view option) {
   for (const char* one :
        {"-blendu", "-blendv", "-bm", "-boost", "-cc", "-clamp", "-imfchan", "-texres", "-type"})
@@ -95,7 +95,7 @@ class MtlReader {
       const std::string_view keyword = words.next();
       if (keyword.empty() || keyword.front() == '#') continue;
       if (keyword == "newmtl")
-        // The first of a name counts.
+        // The first material of a name counts.
         material_ = &materials_.try_emplace(std::string(words.rest())).first->second;
       else if (material_ != nullptr)
         read_key(keyword, words);
@@ -133,7 +133,8 @@ class MtlReader {
       m.opacity_map = map(words, ColorSpace::linear);
     else if (key == "norm" || key == "map_Kn")
       m.normal_map = map(words, ColorSpace::linear);
-    else if (std::find(std::begin(silent), std::end(silent), key) == std::end(silent))
+    else if (std::find(std::begin(ignored_keys), std::end(ignored_keys), key) ==
+             std::end(ignored_keys))
       leave_out(key);
   }
 

@@ -63,7 +63,7 @@ class ObjReader {
   }
 
   ObjFile read() {
-    // Enough for each thread to find one when another takes longer.
+    // Several pieces for each thread, so that a slow piece does not leave threads idle.
     const std::size_t at_once = 4UL * parallel_threads();
     for (auto texts = text_.next(at_once, 0); !texts.empty();
          texts = text_.next(at_once, place_.lines))
@@ -101,8 +101,8 @@ class ObjReader {
     for (std::size_t i = 0; i < texts.size(); ++i) {
       Slot& slot = slots_[i];
       slot.place.triangles = place_.triangles;
-      // What is told is the first error of the file, which may be too many triangles before that of
-      // the piece. They are counted only now.
+      // Reports the first error of the file. Triangles are counted only now, and there may be too
+      // many before the error of the piece.
       if (slot.failed || place_.triangles + slot.piece.triangles > max_triangles_)
         slot.piece.read(texts[i], slot.place, max_triangles_);
       add(slot.piece);
@@ -161,7 +161,7 @@ class ObjReader {
     append<std::uint32_t>(piece.corners[0], polygons_.corners);
   }
 
-  // With room for as many again from each piece to come: growing takes longer than reading.
+  // Reserves room for as many from each remaining piece, because growing takes longer than reading.
   template <class T>
   void append(std::span<const T> from, std::vector<T>& to) const {
     if (to.capacity() < to.size() + from.size())
@@ -197,8 +197,8 @@ class ObjReader {
       polygons_.normals.resize(normals.none() ? 0 : count);
       return;
     }
-    // Those of a position are a chain; one that is too long to search gets doubles, which do no
-    // harm.
+    // The vertices of a position form a chain. A chain that is too long to search gets duplicates,
+    // which do no harm.
     constexpr int most_links = 16;
     std::vector<std::uint32_t> first(polygons_.positions.size(), no_index);
     std::vector<std::uint32_t> next;

@@ -1,4 +1,4 @@
-// Wavefront OBJ: polygons, texture coordinates, normals, and which material they are of.
+// Reads Wavefront OBJ files: polygons, texture coordinates, normals and names of materials.
 #pragma once
 
 #include <filesystem>

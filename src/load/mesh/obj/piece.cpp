@@ -9,12 +9,12 @@
 namespace pah {
 namespace {
 
-// Not drawn, or without a meaning for a picture.
-constexpr std::string_view silent[] = {
+// Statements that are not drawn, or have no effect on a picture.
+constexpr std::string_view ignored_keywords[] = {
     "o",      "g",      "s",     "l",        "p",        "vp",         "mg",        "lod",
     "usemap", "maplib", "bevel", "c_interp", "d_interp", "shadow_obj", "trace_obj", "end"};
 
-// As std::from_chars(), but faster for short numbers without a sign, as most are.
+// Like std::from_chars(), but faster for short numbers without a sign, which are most.
 std::from_chars_result read_whole(const char* at, const char* last, std::int64_t& number) {
   constexpr std::ptrdiff_t most_digits = 9;
   const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
@@ -117,7 +117,8 @@ void ObjPiece::begin(Words& words) {
     material_uses.push_back({face_sizes.size(), words.rest()});
   else if (keyword == "mtllib")
     libraries.push_back(words.rest());
-  else if (std::find(std::begin(silent), std::end(silent), keyword) == std::end(silent))
+  else if (std::find(std::begin(ignored_keywords), std::end(ignored_keywords), keyword) ==
+           std::end(ignored_keywords))
     add_ignored(ignored, keyword, line_);
 }
 

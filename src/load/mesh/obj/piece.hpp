@@ -1,4 +1,4 @@
-// A piece of an OBJ file, from one statement to another, read on its own.
+// A piece of an OBJ file between two statements, which is read independently.
 #pragma once
 
 #include <array>
@@ -13,7 +13,7 @@
 
 namespace pah {
 
-// Positions, texture coordinates and normals: where there are three of something, in this order.
+// The order of arrays with an entry for each kind of element.
 inline constexpr std::array<const char*, 3> obj_elements{"vertex position", "texture coordinate",
                                                          "normal"};
 using ObjCounts = std::array<std::int64_t, 3>;
@@ -26,7 +26,7 @@ struct ObjPlace {
   char line_end = '\n';
 };
 
-// Where the piece behind `text` begins, but for triangles, if there is no error in it.
+// Returns where the piece after `text` begins, except its triangles, if `text` has no error.
 [[nodiscard]] ObjPlace place_behind(std::string_view text, const ObjPlace& place);
 
 class ObjPiece {
@@ -73,7 +73,7 @@ class ObjPiece {
   void number(const Words& words, std::string_view word);
   void corner(const Words& words, std::string_view word);
   [[noreturn]] void bad_corner(const Words& words, std::string_view word) const;
-  // The number from 1 that one below 1 or above the count so far means.
+  // Resolves a number below 1, or above the count so far, to one from 1.
   [[nodiscard]] std::int64_t unusual_number(std::size_t element, std::int64_t number, int column);
 
   ObjCounts counts_{};  // so far
@@ -86,7 +86,7 @@ class ObjPiece {
   int line_ = 0;
 };
 
-// Adds to `known` those that are not among them, as long as there are few.
+// Adds a keyword to `known` unless it is there or the list is full.
 void add_ignored(std::vector<ObjPiece::Ignored>& known, std::string_view keyword, int line);
 
 }  // namespace pah

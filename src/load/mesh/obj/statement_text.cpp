@@ -8,7 +8,8 @@
 namespace pah {
 namespace {
 
-// Behind the first line end from `from` on that no statement goes across; 0 if there is none.
+// Returns the position after the first line end from `from` on that does not split a statement; 0
+// if there is none.
 std::size_t find_cut(std::string_view text, std::size_t from, char line_end) {
   for (std::size_t at = from; (at = text.find(line_end, at)) != std::string_view::npos; ++at) {
     std::size_t last = at;
@@ -18,7 +19,7 @@ std::size_t find_cut(std::string_view text, std::size_t from, char line_end) {
   return 0;
 }
 
-// Behind the last such line end; 0 if there is none.
+// Returns the position after the last such line end; 0 if there is none.
 std::size_t find_last_cut(std::string_view text, char line_end) {
   std::size_t last = 0;
   for (std::size_t cut = 0; (cut = find_cut(text, cut, line_end)) != 0;) last = cut;

@@ -1,4 +1,4 @@
-// A text file in pieces that can be read each on its own.
+// Cuts a text file into pieces that can be read independently.
 #pragma once
 
 #include <span>
@@ -16,13 +16,13 @@ class StatementText {
   StatementText(const std::filesystem::path& file, std::uint64_t max_bytes, std::size_t piece_bytes)
       : file_(file, max_bytes), piece_bytes_(piece_bytes) {}
 
-  // The next pieces of the file, `most` or less; none at its end. Valid until the next call. Throws
-  // MeshFileError if a statement is longer than any that makes sense, which is then in the line
-  // behind the pieces before.
+  // Returns the next pieces of the file, at most `most`, and none at its end; valid until the next
+  // call. Throws MeshFileError, with the line after the previous pieces, if a statement is
+  // unreasonably long.
   [[nodiscard]] std::span<const std::string_view> next(std::size_t most, int lines_before);
 
   [[nodiscard]] char line_end() const { return file_.line_end(); }
-  // Bytes behind the pieces.
+  // The number of bytes after the pieces.
   [[nodiscard]] std::uint64_t left() const { return file_.left(); }
 
  private:

@@ -1,4 +1,4 @@
-// The header of a PLY file: what the data behind it are.
+// Reads the header of a PLY file, which describes its data.
 #pragma once
 
 #include <cstdint>
@@ -33,7 +33,7 @@ struct PlyHeader {
   std::vector<PlyElement> elements;
 };
 
-// Reads to the line behind the header. Throws MeshFileError; also if the elements cannot fit the
+// Reads up to the line after the header. Throws MeshFileError, also if the elements cannot fit the
 // file.
 [[nodiscard]] PlyHeader read_ply_header(FileReader& file);
 

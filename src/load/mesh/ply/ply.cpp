@@ -69,7 +69,7 @@ int slot_of(std::string_view name) {
 
 enum class ListUse { none, corners, strip, uvs };
 
-// The numbers of one element after the other, from text or bytes.
+// Reads the numbers of elements in turn, from text or bytes.
 class PlyReader {
  public:
   PlyReader(const std::filesystem::path& file, const MeshFileOptions& options)
@@ -104,7 +104,7 @@ class PlyReader {
                         std::to_string(element_->count));
   }
 
-  // Looks at names once, not for each of the element's many.
+  // Resolves the names of properties once for all elements.
   void begin(const PlyElement& element) {
     element_ = &element;
     is_vertex_ = element.name == "vertex";
@@ -123,7 +123,8 @@ class PlyReader {
     }
   }
 
-  // Room for what most files have; never more than the file can hold, whatever its header tells.
+  // Reserves what most files need, but never more than the file can hold, whatever its header
+  // claims.
   void reserve(std::uint64_t count) {
     constexpr std::uint64_t least_bytes = 12;  // three floats or numbers of vertices
     const auto expected = static_cast<std::size_t>(std::min(count, file_.left() / least_bytes));
@@ -291,7 +292,7 @@ class PlyReader {
     add(list_);
   }
 
-  // Every other triangle is wound the other way; -1 begins a strip anew.
+  // Every other triangle is wound the other way; -1 starts a new strip.
   void add_strip() {
     for (auto begin = list_.begin(); begin != list_.end();) {
       const auto end = std::find(begin, list_.end(), no_index);

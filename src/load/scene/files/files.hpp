@@ -1,4 +1,4 @@
-// The files that a scene names: where they are, that they can be read, and what they hash to.
+// The files that a scene names: their paths, checks that they can be read, and their hash.
 #pragma once
 
 #include <cstdint>
@@ -18,9 +18,9 @@ namespace pah {
 class ContentHash {
  public:
   void add(std::string_view bytes);
-  // As add(), but eight bytes in a step, which is as much faster and gives another hash.
+  // Like add(), but eight bytes in a step: eight times as fast, with another hash.
   void add_words(std::string_view bytes);
-  // With its length, so that neighbors do not run together.
+  // Adds bytes with their length, so that neighboring parts stay apart.
   void add_part(std::string_view bytes);
   [[nodiscard]] std::string hex() const;
 
@@ -41,16 +41,18 @@ class SceneFiles {
                       LoadedFiles::Impl* loaded = nullptr)
       : folder_(std::move(folder)), on_file_(std::move(on_file)), loaded_(loaded) {}
 
-  // The whole path of the regular file that `node` names, its bytes added to the hash when it is
-  // first seen; nothing, and an error, if it cannot be read or is larger than `most_bytes`.
+  // Returns the path of the regular file that `node` names and, the first time, adds its content to
+  // the hash. Reports an error and returns nothing if it cannot be read or is larger than
+  // `most_bytes`.
   std::optional<std::filesystem::path> open(ReadContext& context, const YamlNode& node,
                                             const ValueName& name, std::uint64_t most_bytes);
-  // As open(), of a file that another one names; `node` is where that one is named.
+  // The same for a file that another file names; the error is at the place that names the other
+  // file.
   std::optional<std::filesystem::path> open(ReadContext& context, const Mark& mark,
                                             const std::filesystem::path& file,
                                             std::uint64_t most_bytes);
 
-  // Tells whoever watches files of one that is read for another.
+  // Calls on_file for a file that is read on behalf of another.
   void announce(const std::filesystem::path& file) const {
     if (on_file_) on_file_(file);
   }
@@ -61,7 +63,7 @@ class SceneFiles {
 
  private:
   std::filesystem::path folder_;
-  // The hash of what is in the file; none if it cannot be read to its end.
+  // Hashes the content of a file; returns nothing if it cannot be read to its end.
   [[nodiscard]] std::optional<std::string> content_hash(const std::filesystem::path& file,
                                                         std::uintmax_t size) const;
 

@@ -1,11 +1,11 @@
-// Mesh files in a scene.
+// Imports mesh files into a scene.
 #pragma once
 
 #include "load/scene/sections/reading.hpp"
 
 namespace pah {
 
-// Which parts of a mesh file are used beside its geometry, and how they are adjusted.
+// The parts of a mesh file that are used beside its geometry, and their adjustments.
 struct FileUse {
   bool materials = false;
   bool cameras = false;
@@ -20,13 +20,15 @@ struct FileUse {
   std::vector<Replacement> replacements;
 };
 
-// The file that `node` names, read once however often it is used; null, and an error, if it cannot
-// be. With `use`, as several meshes with their own materials, else as one mesh of material 0.
+// Returns the file that `node` names, which is read only once; reports an error and returns null if
+// that fails. With `use.materials` it has several meshes with their own materials, else one mesh of
+// material 0.
 [[nodiscard]] const ImportedFile* import_file(SceneReading& reading, const YamlNode& node,
                                               const ValueName& name, MeshNormals normals,
                                               const FileUse& use);
 
-// The material that each part is of, as `use` replaces them; reports names that the file has not.
+// Returns the material of each part after the replacements of `use`; reports names that the file
+// does not have.
 [[nodiscard]] std::vector<MaterialId> materials_of(SceneReading& reading, const ImportedFile& file,
                                                    const FileUse& use);
 

@@ -1,4 +1,4 @@
-// Where the copies of a mesh stand.
+// Reads the placement of copies of a mesh.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -12,7 +12,8 @@ namespace {
 using Transforms = std::vector<glm::dmat4x3>;
 constexpr std::uint32_t most_copies = 0xFFFFFFFFU;
 
-// Every transform of `outer` after every one of `inner`, if that is not too many.
+// Combines every transform of `outer` with every one of `inner`; reports an error if there are too
+// many.
 Transforms combine(SceneReading& reading, const Mark& mark, const Transforms& outer,
                    const Transforms& inner) {
   if (outer.size() * inner.size() > reading.limits.instances) {

@@ -1,4 +1,4 @@
-// The sections of a scene, read one by one into a Scene.
+// Reads the sections of a scene file into a Scene.
 #pragma once
 
 #include <map>
@@ -15,14 +15,14 @@
 
 namespace pah {
 
-// Ids by name, for one sort of thing.
+// Ids by name, for one kind of object.
 class NameTable {
  public:
   explicit NameTable(std::string kind) : kind_(std::move(kind)) {}
 
-  // False, and an error at `mark`, if there is one of this name already.
+  // Reports an error at `mark` and returns false if the name exists.
   bool add(ReadContext& context, const std::string& name, std::uint32_t id, const Mark& mark);
-  // Does nothing if there is one of this name already.
+  // Does nothing if the name exists.
   void add_unless_known(const std::string& name, std::uint32_t id);
   // Reports an unknown name.
   std::optional<std::uint32_t> find(ReadContext& context, const YamlNode& node,
@@ -48,7 +48,7 @@ struct ImportedFile {
   std::vector<Light> lights;
 };
 
-// Where a picture is first named, and its bytes if it is inside of another file.
+// The place that first names a picture, and its bytes if it is embedded in another file.
 struct NamedPicture {
   Mark mark;
   std::shared_ptr<const std::string> bytes{};
@@ -99,7 +99,7 @@ void read_input(SceneReading& reading, MapReader& map, std::string_view key, Col
                 const NumberRange& range);
 void read_input(SceneReading& reading, MapReader& map, std::string_view key, ScalarInput& input,
                 const NumberRange& range);
-// {texture: name} or {image: file}, taken as numbers and not as colors.
+// Reads {texture: name} or {image: file} as numbers, not as colors.
 void read_normal_map(SceneReading& reading, MapReader& map, std::string_view key,
                      TextureId& texture);
 // The texture for an image file that something names directly.
@@ -112,10 +112,10 @@ std::optional<TextureId> image_texture(SceneReading& reading, const YamlNode& no
 // {axis, angle}, or an angle about y.
 [[nodiscard]] DMat3 read_rotation(ReadContext& context, const YamlNode* node,
                                   const ValueName& name);
-// Where the copies of what stands at `transform` are: its keys transform, repeat and scatter.
+// Reads the keys transform, repeat and scatter: the placement of all copies.
 [[nodiscard]] std::vector<glm::dmat4x3> read_placement(SceneReading& reading, MapReader& map);
 
-// What the geometry of a mesh or area light is given.
+// The name, material and light of a mesh's or area light's geometry.
 struct GeometryUse {
   std::string name;
   std::optional<MaterialId> material;

@@ -108,7 +108,7 @@ bool read_keys(SceneReading& reading, MapReader& map, HeightFieldShape& shape) {
                           : read_height_rows(map, *heights, shape);
 }
 
-// At least as many as make_mesh() makes.
+// An upper bound of the triangles that make_mesh() makes.
 struct TriangleBound {
   std::uint64_t operator()(const RectangleShape&) const { return 2; }
   std::uint64_t operator()(const BoxShape&) const { return 12; }

@@ -87,8 +87,8 @@ std::optional<Texture> read_image_texture(SceneReading& reading, MapReader& map)
   return texture;
 }
 
-// "#rrggbb" to a linear color; false if it is not one.
-// Whether it holds whole numbers up to 255 where 1 is the most.
+// "#rrggbb" to a linear color; false if it is not one. Returns whether a color holds whole numbers
+// up to 255 although 1 is the maximum.
 bool is_of_bytes(const YamlNode& node, const NumberRange& range) {
   if (range.max != 1) return false;
   return std::all_of(node.items.begin(), node.items.end(), [](const YamlRef& item) {
@@ -97,7 +97,7 @@ bool is_of_bytes(const YamlNode& node, const NumberRange& range) {
   });
 }
 
-// A file's name alone is no picture.
+// Suggests {image: file} if a text looks like the name of a picture.
 std::string picture_hint(const YamlNode& node) {
   const bool is_file =
       node.kind == Kind::scalar && std::filesystem::path(node.text).extension().string().size() > 3;

@@ -9,7 +9,7 @@
 namespace pah {
 namespace {
 
-// The scheme is in encoded values.
+// The scheme's values are sRGB-encoded.
 float linear(double encoded) {
   return static_cast<float>(linear_from_srgb(std::clamp(encoded, 0.0, 1.0)));
 }

@@ -8,12 +8,12 @@
 
 namespace pah {
 
-// From black by blue, green and red to white, evenly growing in brightness: D. A. Green, "A colour
-// scheme for the display of astronomical intensity images" (2011). `value` is in [0, 1]; the color
-// is linear.
+// Maps [0, 1] to linear colors from black through blue, green and red to white, with steadily
+// growing brightness: D. A. Green, "A colour scheme for the display of astronomical intensity
+// images" (2011).
 [[nodiscard]] Vec3 false_color(double value);
 
-// Nodes visited on the left, triangles tested on the right, each from 0 to its maximum.
+// Draws visited nodes on the left and tested triangles on the right, each from 0 to its maximum.
 [[nodiscard]] Image heat_map(const PictureCosts& costs);
 
 }  // namespace pah

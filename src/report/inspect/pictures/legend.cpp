@@ -14,7 +14,7 @@ struct NamedColor {
   std::array<int, 3> encoded;  // sRGB
 };
 
-// Okabe & Ito, "Color Universal Design" (2008): told apart by color-blind people, too.
+// Okabe & Ito, "Color Universal Design" (2008): color-blind people can tell these colors apart.
 constexpr std::array<NamedColor, 8> colors{{{"gray", {128, 128, 128}},
                                             {"orange", {230, 159, 0}},
                                             {"sky blue", {86, 180, 233}},

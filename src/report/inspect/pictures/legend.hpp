@@ -1,4 +1,4 @@
-// What the colors of a picture mean.
+// The meaning of a picture's colors.
 #pragma once
 
 #include <pah/geometry/vec.hpp>
@@ -17,7 +17,7 @@ struct LegendColor {
 // Index 0 is gray, for the usual case; other neighbors differ, and colors repeat.
 [[nodiscard]] LegendColor legend_color(std::string label, std::size_t index);
 
-// A line for each color.
+// Returns a line for each color.
 [[nodiscard]] std::string legend_text(const std::vector<LegendColor>& legend);
 
 }  // namespace pah

@@ -24,8 +24,9 @@ End between(const End& a, const End& b, float t) {
   return {glm::mix(a.point, b.point, t), glm::mix(a.place, b.place, t)};
 }
 
-// The part before the camera that is in the picture or `margin` pixels around it: Liang and Barsky,
-// "A New Concept and Method for Line Clipping" (1984), in homogeneous coordinates.
+// Clips a line to the part in front of the camera that is in the picture or within `margin` pixels
+// of it: Liang and Barsky, "A New Concept and Method for Line Clipping" (1984), in homogeneous
+// coordinates.
 std::optional<Segment> clipped(const Segment& line, const Image& picture, float margin) {
   const float right = static_cast<float>(picture.width) + margin;
   const float bottom = static_cast<float>(picture.height) + margin;
@@ -42,7 +43,7 @@ std::optional<Segment> clipped(const Segment& line, const Image& picture, float 
   }
   if (from > to) return std::nullopt;
   Segment part{between(line[0], line[1], from), between(line[0], line[1], to)};
-  // A line that ends in the eye is seen as a point.
+  // A line that ends in the eye appears as a point.
   for (const std::size_t i : {0U, 1U})
     if (!(part[i].place.w > 0)) part[i] = part[1 - i];
   if (!(part[0].place.w > 0)) return std::nullopt;
@@ -61,11 +62,11 @@ class Drawing {
         height_(picture.height),
         opacity_(picture.pixels.size()) {}
 
-  // From the middle of a line, in pixels: beyond, it covers nothing of a pixel.
+  // The distance from the middle of a line, in pixels, beyond which it covers no part of a pixel.
   [[nodiscard]] float reach() const { return reach_; }
   [[nodiscard]] const std::vector<float>& opacity() const { return opacity_; }
 
-  // Goes along the axis that the line is nearer to.
+  // Steps along the axis that the line is more parallel to.
   void add(const Segment& line) {
     const Vec2 from = place_of(line[0]), to = place_of(line[1]);
     const Vec2 way = to - from;
@@ -83,13 +84,13 @@ class Drawing {
   }
 
  private:
-  // Where clipping left it, up to rounding, which near the eye may be anything.
+  // Clamps to the clipped range, because rounding errors near the eye are unbounded.
   [[nodiscard]] Vec2 place_of(const End& end) const {
     const Vec2 size(static_cast<float>(width_), static_cast<float>(height_));
     return glm::clamp(Vec2(end.place) / end.place.w, Vec2(-reach_), size + reach_);
   }
 
-  // The picture's first and last along an axis that lie between two coordinates.
+  // The first and last pixel along an axis between two coordinates.
   [[nodiscard]] std::pair<int, int> pixels(float from, float to, int axis) const {
     const int last = axis == 0 ? width_ - 1 : height_ - 1;
     return {std::max(static_cast<int>(std::floor(from)), 0),
@@ -102,13 +103,13 @@ class Drawing {
     const float s =
         length2 == 0 ? 0 : std::clamp(glm::dot(center - from, way) / length2, 0.0F, 1.0F);
     const float coverage = std::clamp(reach_ - glm::distance(center, from + s * way), 0.0F, most_);
-    // Along the line in space rather than in the picture.
+    // Interpolates along the line in space, not in the picture.
     const float far_weight = s * line[0].place.w, near_weight = (1 - s) * line[1].place.w;
     const End at = between(line[0], line[1], far_weight / (far_weight + near_weight));
     const std::size_t index = static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) +
                               static_cast<std::size_t>(x);
     const SeenPlane& plane = planes_[index];
-    // Lines on a surface count as before it: to a pixel, no better is known where they are.
+    // Lines on a surface count as in front of it, because their position is known to a pixel only.
     const float slack = pixel_width_ * at.place.w;
     const bool hidden = glm::dot(plane.normal, at.point) < plane.offset - slack;
     opacity_[index] = std::max(opacity_[index], coverage * (hidden ? hidden_opacity : 1));

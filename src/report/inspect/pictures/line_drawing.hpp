@@ -1,4 +1,4 @@
-// Lines drawn over a picture, faint where a surface hides them.
+// Draws lines over a picture, faintly where a surface hides them.
 #pragma once
 
 #include <limits>
@@ -12,8 +12,8 @@
 
 namespace pah {
 
-// The plane of the surface that a pixel's central ray meets. The camera's side of it is where
-// dot(normal, point) > offset: everywhere, if nothing is met.
+// The plane of the surface that a pixel's central ray meets. Points with dot(normal, point) >
+// offset are on the camera's side; all points are if the ray meets nothing.
 struct SeenPlane {
   Vec3 normal{0};
   float offset = -std::numeric_limits<float>::infinity();
@@ -23,8 +23,8 @@ struct SeenPlane {
 [[nodiscard]] std::vector<SeenPlane> seen_planes(const World& world, const Accelerator& accelerator,
                                                  const FilmSettings& film);
 
-// `width` is in pixels, `planes` are the picture's. Only lines before the camera are drawn. Where
-// lines of the set cross, one of them is seen.
+// Draws the lines in front of the camera. `width` is in pixels; `planes` come from seen_planes().
+// Where lines of the set cross, one of them is visible.
 void draw_lines(const LineSet& lines, float width, const CameraRays& camera,
                 const std::vector<SeenPlane>& planes, Image& picture);
 

@@ -7,7 +7,7 @@
 namespace pah {
 namespace {
 
-// Bit k of a corner's number tells whether it lies at the upper end of axis k.
+// Bit k of a corner's number is set if the corner lies at the upper end of axis k.
 DVec3 signs(unsigned corner) {
   return {(corner & 1U) != 0 ? 1 : -1, (corner & 2U) != 0 ? 1 : -1, (corner & 4U) != 0 ? 1 : -1};
 }

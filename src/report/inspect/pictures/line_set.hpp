@@ -16,10 +16,10 @@ struct LineSet {
   std::vector<std::array<std::uint32_t, 2>> edges;  // between which positions
 };
 
-// Adds eight corners, and the edges that have a length: a frustum may begin in a point.
+// Adds eight corners and all edges with a length; a frustum may start in a point.
 void add_edges(const Region& region, LineSet& lines);
 
-// A set for each level, named by it, with a color of its own that is seen on black and on white.
+// Returns a set for each level, with its own color, which is visible on black and on white.
 [[nodiscard]] std::vector<LineSet> level_lines(const std::vector<std::vector<Aabb>>& levels);
 
 }  // namespace pah

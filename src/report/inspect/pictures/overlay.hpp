@@ -1,4 +1,4 @@
-// Influence areas and boxes drawn over the picture of their scene.
+// Draws influence areas and boxes over the picture of their scene.
 #pragma once
 
 #include <pah/image/image.hpp>
@@ -9,12 +9,11 @@
 
 namespace pah {
 
-// With few samples, and as PNG files show it: exposed, in [0, 1]. The whole picture, whatever its
-// crop.
+// Renders the whole picture, without a crop, with few samples; exposed and clamped to [0, 1].
 [[nodiscard]] Image draft_picture(const World& world, const Accelerator& accelerator,
                                   const Scene& settings);
 
-// `boxes` from the last to the first, thin; then `areas`.
+// Draws `boxes` from the last to the first in thin lines, then `areas`.
 void draw_over(Image& picture, const World& world, const Accelerator& accelerator,
                const FilmSettings& film, const std::vector<LineSet>& boxes,
                const std::vector<LineSet>& areas);

@@ -10,7 +10,7 @@
 namespace pah {
 namespace {
 
-// The global BVH in gray, then areas and grids that were built, in their order.
+// The global BVH is gray; built areas and grids follow in their order.
 std::vector<LegendColor> legend_of(const World& world, const Acceleration& acceleration) {
   std::vector<LegendColor> legend{legend_color("global BVH", 0)};
   for (const AreaStatus& status : acceleration.areas)
@@ -27,7 +27,7 @@ class Structures {
     if (acceleration.grids != nullptr) grids_ = acceleration.grids->reports();
   }
 
-  // Its place in the legend.
+  // Returns the structure's index in the legend.
   [[nodiscard]] std::size_t answering(const Ray& ray) const {
     if (acceleration_.local != nullptr) {
       const std::optional<std::size_t> area = acceleration_.local->area_of(ray);
@@ -39,7 +39,7 @@ class Structures {
   }
 
  private:
-  // A look-up meets no node.
+  // Returns whether the ray needs a traversal: a look-up in a grid visits no node.
   [[nodiscard]] bool traverses(const Ray& ray) const {
     TraversalCounts counts;
     std::uint8_t occluded = 0;
@@ -51,7 +51,7 @@ class Structures {
   std::vector<LightGridReport> grids_;
 };
 
-// Those without a bundle are the global BVH's.
+// The global BVH answers rays without a bundle.
 Vec3 color_at(const SeenPoint& at, const World& world, const Structures& structures,
               const std::vector<LegendColor>& legend) {
   Vec3 sum(0);

@@ -1,4 +1,4 @@
-// Which structure answers the shadow rays of each pixel, as colors.
+// Colors each pixel by the structures that answer its shadow rays.
 #pragma once
 
 #include <pah/image/image.hpp>
@@ -14,9 +14,9 @@ struct StructureMap {
   std::vector<LegendColor> legend;
 };
 
-// Of the shadow rays from the point that a pixel's central ray meets, one to the center of each
-// light that shines on it; where several structures answer them, the mean of their colors. Black
-// where there are none. The whole picture, whatever its crop.
+// The rays of a pixel lead from the point that its central ray meets to the center of each light
+// that shines on it. The color is the mean over the structures that answer them, black without
+// rays. Covers the whole picture, without a crop.
 [[nodiscard]] StructureMap map_structures(const World& world, const Acceleration& acceleration,
                                           const FilmSettings& film);
 

@@ -1,4 +1,4 @@
-// What accelerators answer, and where two of them differ.
+// The answers of accelerators, and their differences.
 #pragma once
 
 #include <pah/accel/accelerator.hpp>
@@ -9,27 +9,28 @@ namespace pah {
 
 enum class RayQuery : std::uint8_t { nearest, any };
 
-// Of either query, the answers to all rays.
+// The answers to all rays, of either query.
 struct Answers {
   std::vector<Hit> hits;
   std::vector<std::uint8_t> occluded;
 
-  // Makes room.
+  // Reserves memory.
   void reserve(RayQuery query, std::size_t rays);
 };
 
-// Asks for one batch; answers[first] becomes the first.
+// Traces one batch; its answers start at index `first`.
 void ask(const Accelerator& accelerator, RayQuery query, std::span<const Ray> rays,
          Answers& answers, std::size_t first, TraversalCounts* counts = nullptr);
 
 [[nodiscard]] Answers ask_all(const Accelerator& accelerator, RayQuery query,
                               const RayBatches& batches, TraversalCounts* counts = nullptr);
 
-// Two triangles are a tie if their distances are so nearly the same, relative to the larger: a ray
-// through a shared edge meets both.
+// Two triangles tie if their distances differ by less, relative to the larger: a ray through a
+// shared edge meets both.
 inline constexpr float tie = 1e-5F;
 
-// Rays that only one of both says hit, or whose nearest triangles differ but for ties.
+// Counts the rays for which only one of the two reports a hit, or whose nearest triangles differ
+// without a tie.
 [[nodiscard]] std::uint64_t count_mismatches(RayQuery query, const Answers& a, const Answers& b);
 
 }  // namespace pah

@@ -32,13 +32,13 @@ constexpr std::array<Kind, 5> kinds{{
     {"shadow to a point or sun", &RecordedRays::shadow_to_point_or_sun, RayQuery::any},
 }};
 
-// Seconds of asking all batches `passes` times. Batches are the tasks: a call takes one as it was
-// recorded. One thread's are CPU time, so that other programs do not slow it down.
+// Returns the seconds for tracing all batches `passes` times. Each recorded batch is one task and
+// one call. On one thread this is CPU time, so that other programs do not count.
 double time_of(const Accelerator& accelerator, RayQuery query, const RayBatches& batches,
                std::size_t passes, unsigned threads) {
   const std::size_t count = batches.ends.size();
   const auto part = [&](std::size_t first, std::size_t last) {
-    // Kept from call to call, as the renderer keeps it.
+    // Kept between calls, as in the renderer.
     thread_local Answers answers;
     for (std::size_t i = first; i < last; ++i) {
       const std::span<const Ray> batch = batches.batch(i % count);
@@ -68,7 +68,7 @@ Asked asked_for(RayQuery query, const std::vector<NamedAccelerator>& accelerator
 void measure_kind(const Kind& kind, const RayBatches& batches, unsigned threads, bool quick,
                   const Asked& accelerators, const std::vector<RateRow>& blank,
                   std::vector<RateRow>& rows) {
-  // Many short turns, so that what slows the machine for a while slows all accelerators.
+  // Many short turns, so that a slow phase of the machine affects all accelerators.
   constexpr unsigned turns = 5;
   const double turn_seconds = (quick ? 0.02 : 0.05) / turns;
   const unsigned repetitions = quick ? 3 : 5;
@@ -94,7 +94,7 @@ void measure_kind(const Kind& kind, const RayBatches& batches, unsigned threads,
   }
 }
 
-// What all repetitions have in common.
+// Rows with the values that all repetitions share.
 std::vector<RateRow> blank_rows(const std::string& scene, std::uint64_t triangles, const Kind& kind,
                                 const RayBatches& batches, const Asked& accelerators) {
   const auto rays = static_cast<double>(batches.rays.size());

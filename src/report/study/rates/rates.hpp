@@ -1,4 +1,4 @@
-// Rays a second of accelerators, on rays that a render asked.
+// Measures the rays per second of accelerators, on the rays of a render.
 #pragma once
 
 #include <optional>
@@ -13,7 +13,7 @@ namespace pah {
 struct StudyScene {
   std::string name;
   World world;
-  Scene settings;  // film, render, influence_areas and acceleration alone
+  Scene settings;  // only film, render, influence_areas and acceleration
 };
 
 struct NamedAccelerator {
@@ -21,18 +21,18 @@ struct NamedAccelerator {
   std::unique_ptr<Accelerator> accelerator;
   double build_seconds = 0;
   bool counts = true;   // nodes and triangles
-  bool nearest = true;  // is also asked for nearest hits
+  bool nearest = true;  // also trace nearest hits
 };
 
-// For each of the scenes, by turns: bvh, local where areas are built, light with a grid for every
-// light that may have one, embree where it is there, and embree16: the same asked for any hit by
-// packets of 16 rays. `progress` as of run_study.
+// Measures in turns, for each scene: bvh; local if areas are built; light with a grid for every
+// light that may have one; embree if it was found; and embree16, any hit in packets of 16 rays.
+// `progress` is that of run_study().
 [[nodiscard]] std::vector<RateRow> measure_rates(
     const std::vector<StudyScene>& scenes, const StudyConfig& config,
     const std::function<void(double, const std::string&)>& progress = {});
 
-// The same of given accelerators and rays. The first accelerator is the one that others' answers
-// are held against.
+// Measures given accelerators on given rays. The answers of the first accelerator are the
+// reference.
 [[nodiscard]] std::vector<RateRow> measure_rates(const std::string& scene, std::uint64_t triangles,
                                                  const RecordedRays& rays,
                                                  const std::vector<NamedAccelerator>& accelerators,

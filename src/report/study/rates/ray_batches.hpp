@@ -1,4 +1,4 @@
-// Rays as the renderer asks them: many to a call.
+// Rays in the batches of a renderer: many to a call.
 #pragma once
 
 #include <pah/geometry/ray.hpp>

@@ -12,12 +12,12 @@
 namespace pah {
 namespace {
 
-// Whole tiles of a picture as large as the scene's send the batches of a real render, and rays that
-// lie as close together. So many pixels see enough of a scene.
+// Renders whole tiles of a picture of the scene's size, so that batches and the distances of rays
+// are those of a real render. This number of pixels sees enough of a scene.
 constexpr std::uint64_t recorded_pixels = 12ULL * 1024;
-constexpr double most_pixels = 1 << 20;  // of the picture: its film takes memory
+constexpr double most_pixels = 1 << 20;  // of the picture, because its film takes memory
 
-// Stands between the renderer and an accelerator. For one thread.
+// Records rays between the renderer and an accelerator. Not thread-safe.
 class Recorder final : public Accelerator {
  public:
   Recorder(const World& world, const Accelerator& accelerator, RecordedRays& rays)
@@ -36,18 +36,18 @@ class Recorder final : public Accelerator {
   [[nodiscard]] AcceleratorMemory memory() const override { return accelerator_.memory(); }
 
  private:
-  // Shadow rays are asked for nearest hits where surfaces let light through in part.
+  // Shadow rays need nearest hits if surfaces are partly transparent.
   [[nodiscard]] RayBatches& kind_of(std::span<const Ray> rays) const {
     const std::uint32_t bundle = rays.front().bundle;
     if (bundle == camera_bundle || all_leave_the_lens(rays)) return rays_.camera;
     return bundle == no_bundle ? rays_.bounce : rays_.shadow;
   }
 
-  // Rays through a lens are no bundle.
+  // Rays through a lens form no bundle.
   [[nodiscard]] bool all_leave_the_lens(std::span<const Ray> rays) const {
     const auto* camera = std::get_if<PerspectiveCamera>(&world_.camera);
     if (camera == nullptr || camera->aperture_radius == 0) return false;
-    // Origins are sums of three vectors, rounded six times at most each.
+    // Origins are sums of three vectors, with at most six roundings each.
     const double reach =
         camera->aperture_radius +
         double{rounding_bound(18)} * (glm::length(camera->position) + camera->aperture_radius);
@@ -61,7 +61,7 @@ class Recorder final : public Accelerator {
   RecordedRays& rays_;
 };
 
-// Batches drawn at random: every second or third might be of one depth of the paths.
+// Draws batches at random, because every second or third batch might have the same path depth.
 RayBatches thinned(const RayBatches& all, std::uint64_t most, std::uint64_t seed) {
   if (all.rays.size() <= most) return all;
   std::vector<std::size_t> order(all.ends.size());
@@ -78,7 +78,7 @@ RayBatches thinned(const RayBatches& all, std::uint64_t most, std::uint64_t seed
   return some;
 }
 
-// What is left of each batch.
+// Keeps the rays of each batch that lead to a light with an exact bundle.
 RayBatches to_exact_bundles(const RayBatches& shadow, const World& world) {
   std::vector<std::uint8_t> exact(world.lights.size());
   std::ranges::transform(world.lights, exact.begin(), [](const Light& light) -> std::uint8_t {
@@ -108,7 +108,7 @@ std::uint64_t pixels_of(const PixelRect& tile) {
   return static_cast<std::uint64_t>(tile.width()) * static_cast<std::uint64_t>(tile.height());
 }
 
-// One of each of as many equal parts of the tiles as have the pixels.
+// Chooses one tile from each of several equal parts, enough for the given number of pixels.
 std::vector<std::size_t> some_tiles(std::span<const PixelRect> tiles, std::uint64_t seed) {
   std::uint64_t all = 0;
   for (const PixelRect& tile : tiles) all += pixels_of(tile);

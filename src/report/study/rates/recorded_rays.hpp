@@ -1,4 +1,4 @@
-// The rays that a render of a scene asks.
+// Records the rays of a render.
 #pragma once
 
 #include <pah/accel/accelerator.hpp>
@@ -11,13 +11,13 @@ namespace pah {
 struct RecordedRays {
   RayBatches camera;
   RayBatches bounce;
-  RayBatches shadow;                  // each batch by light, where lights are not too many
+  RayBatches shadow;  // each batch sorted by light, unless there are too many lights
   RayBatches shadow_to_point_or_sun;  // those whose light has an exact bundle
 };
 
-// Renders some tiles of the picture, spread over it, on one thread, and listens. Tiles and samples
-// are as many as send about `most` camera rays. Of other kinds no more than about as many are kept,
-// in whole batches: those of the last kind without other rays. The seed chooses all.
+// Renders some tiles across the picture on one thread and records their rays. Tiles and samples are
+// chosen for about `most` camera rays; at most about as many rays of each other kind are kept, in
+// whole batches. The seed determines all choices.
 [[nodiscard]] RecordedRays record_rays(const World& world, const Accelerator& accelerator,
                                        const FilmSettings& film, const RenderSettings& render,
                                        std::uint64_t most, std::uint64_t seed);

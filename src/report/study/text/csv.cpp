@@ -1,4 +1,4 @@
-// The study's rows as they are, for other tools.
+// The study's rows as CSV, for other tools.
 #include <fmt/format.h>
 
 #include "report/study/study.hpp"
@@ -6,8 +6,8 @@
 namespace pah {
 namespace {
 
-// RFC 4180.
-std::string quoted(const std::string& text) {
+// Quotes a text for CSV (RFC 4180).
+std::string csv_text(const std::string& text) {
   if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
   std::string out = "\"";
   for (const char c : text) {
@@ -20,8 +20,8 @@ std::string quoted(const std::string& text) {
 constexpr const char* case_columns = "mesh,area,group,triangles,heuristic,split";
 
 std::string cells(const StudyCase& tree) {
-  return fmt::format("{},{},{},{},{},{}", quoted(tree.mesh), quoted(tree.area),
-                     quoted(name_of(tree.group)), tree.triangles, label_of(tree.heuristic),
+  return fmt::format("{},{},{},{},{},{}", csv_text(tree.mesh), csv_text(tree.area),
+                     csv_text(name_of(tree.group)), tree.triangles, label_of(tree.heuristic),
                      label_of(tree.split));
 }
 
@@ -74,7 +74,7 @@ std::string rays_csv(const StudyResults& results) {
   };
   for (const RateRow& row : results.rates)
     csv +=
-        fmt::format("{},{},{},{},{:.6g},{},{},{:.6g},{},{},{:.6f},{},{}\n", quoted(row.scene),
+        fmt::format("{},{},{},{},{:.6g},{},{},{:.6g},{},{},{:.6f},{},{}\n", csv_text(row.scene),
                     row.triangles, row.ray_kind, row.accelerator, row.batch, row.threads,
                     row.repetition, row.rays_per_second, counted(row.nodes_per_ray),
                     counted(row.triangles_per_ray), row.build_seconds, row.bytes, row.mismatches);

@@ -1,4 +1,4 @@
-// What the thesis and its follow-up paper report, beside what was found here.
+// The claims of the thesis and its follow-up paper, beside the findings here.
 #include <fmt/format.h>
 
 #include <array>
@@ -23,7 +23,7 @@ double error_of(const StudyResults& results, double PredictionRow::*prediction, 
       [&](const PredictionRow& row) { return relative_error(row.*prediction, row); });
 }
 
-// Mean cost of a variant relative to another's.
+// Returns the mean cost of a variant relative to another's.
 template <typename Take>
 double over(const StudyResults& results, const StudyVariant& variant, const StudyVariant& base,
             const Take& take, double CostRow::*value = &CostRow::closest) {
@@ -35,7 +35,7 @@ double over(const StudyResults& results, const StudyVariant& variant, const Stud
 
 bool any_group(StudyGroup) { return true; }
 
-// A variant's costs over those of SAH + longest axis, by group of areas.
+// A variant's costs relative to SAH with the longest axis, by group of areas.
 class GroupCosts {
  public:
   GroupCosts(const StudyResults& results, const StudyVariant& variant) {
@@ -46,7 +46,7 @@ class GroupCosts {
     }
   }
   [[nodiscard]] bool cheaper_along_axis() const { return closest_.front() < 1; }
-  // fmin and fmax pass over groups without areas, whose costs are NaN.
+  // fmin and fmax ignore groups without areas, whose costs are NaN.
   [[nodiscard]] double lowest_elsewhere() const {
     double lowest = std::nan("");
     for (std::size_t g = 1; g < study_groups; ++g) lowest = std::fmin(lowest, closest_[g]);
@@ -70,7 +70,7 @@ class GroupCosts {
   std::array<double, study_groups> closest_{}, all_{};
 };
 
-// In how many areas PAH builds a cheaper tree than SAH does, the axes being chosen alike.
+// Counts the areas in which PAH builds a cheaper tree than SAH with the same choice of axes.
 Finding pah_alone(const StudyResults& results) {
   std::size_t better = 0;
   std::size_t compared = 0;
@@ -91,7 +91,7 @@ Finding pah_alone(const StudyResults& results) {
           better == 0};
 }
 
-Finding builds(const StudyResults& results) {
+Finding build_finding(const StudyResults& results) {
   const auto seconds = [&](const StudyVariant& variant) {
     return mean_of(
         results.costs, [&](const CostRow& row) { return variant.built(row); },
@@ -115,7 +115,8 @@ Finding builds(const StudyResults& results) {
           ratio >= 5 && ratio <= 20};
 }
 
-// Splits along the rays, which only a search of the longest axis has to make, tell PAH nothing.
+// For splits along the rays all positions cost PAH the same; only the longest-axis rule must make
+// them.
 Finding unbalance(const StudyResults& results) {
   const auto lopsided = [&](const StudyVariant& variant) {
     return 100 * mean_of(
@@ -170,7 +171,7 @@ std::vector<Finding> findings(const StudyResults& results) {
       unbalance(results),
       {"SAH + SPFH is better than SAH + longest axis along an axis, and no worse elsewhere",
        sah_spfh.text(), sah_spfh.cheaper_along_axis() && sah_spfh.highest_elsewhere() <= 1},
-      builds(results)};
+      build_finding(results)};
 }
 
 }  // namespace

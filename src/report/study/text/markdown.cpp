@@ -1,4 +1,4 @@
-// The study as tables that people read.
+// The study's tables in Markdown.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -8,7 +8,7 @@
 
 namespace pah {
 
-// Pipes would end a cell.
+// Escapes pipes, which would end a cell.
 [[nodiscard]] inline std::string markdown_cell(const std::string& text) {
   std::string out;
   for (const char c : text) {
@@ -22,7 +22,7 @@ namespace pah {
   return fmt::format("| {} |\n", fmt::join(cells, " | "));
 }
 
-// Numbers to the right of the first column.
+// Aligns all columns but the first to the right.
 [[nodiscard]] inline std::string markdown_header(const std::vector<std::string>& cells) {
   std::vector<std::string> rule(cells.size(), "---:");
   rule.front() = "---";

@@ -9,7 +9,7 @@
 
 namespace pah {
 
-// Of `value(row)` over the rows that `take(row)` admits; NaN if there are none.
+// Returns the mean of `value(row)` over the rows for which `take(row)` holds; NaN without rows.
 template <typename Row, typename Take, typename Value>
 [[nodiscard]] double mean_of(const std::vector<Row>& rows, const Take& take, const Value& value) {
   double sum = 0;
@@ -53,17 +53,17 @@ inline constexpr StudyVariant study_variants[] = {sah_longest,  sah_best,  sah_f
                                                   pah_longest,  pah_best,  pah_facing,
                                                   mean_longest, mean_best, mean_facing};
 
-// The thesis's claims and what becomes of them, as a section of the report.
+// Returns the section of the report on the thesis's claims.
 [[nodiscard]] std::string study_findings(const StudyResults& results);
 
-// Rays a second, as a section of the report; empty if none were measured.
+// Returns the section on rays per second; empty if none were measured.
 [[nodiscard]] std::string rates_markdown(const StudyResults& results, bool with_plots);
 
-// The rows with `value` divided by that of `base` in the same area.
+// Returns the rows with `value` divided by that of `base` in the same area.
 [[nodiscard]] std::vector<CostRow> relative_costs(const std::vector<CostRow>& rows,
                                                   const StudyVariant& base, double CostRow::*value);
 
-// The meshes' names, in the order of the rows.
+// Returns the meshes' names, in the order of the rows.
 [[nodiscard]] inline std::vector<std::string> meshes_of(const StudyResults& results) {
   std::vector<std::string> names;
   for (const CostRow& row : results.costs)

@@ -15,8 +15,8 @@
 namespace pah {
 namespace {
 
-// Text in a double-quoted string of gnuplot and of its data blocks.
-std::string quoted(const std::string& text) {
+// Quotes a text for strings and data blocks of gnuplot.
+std::string gnuplot_text(const std::string& text) {
   std::string out = "\"";
   for (const char c : text) {
     const bool plain = static_cast<unsigned char>(c) >= ' ' && c != '"' && c != '\\';
@@ -43,7 +43,7 @@ std::string prediction_plot(const StudyResults& results) {
   std::string text = preamble("prediction", "Mean relative error of the predicted cost", "%");
   text += "set xtics rotate by -20\n$errors << EOD\nmesh PAH \"PAH, unclipped\" SAH\n";
   for (const std::string& mesh : meshes_of(results)) {
-    text += quoted(mesh);
+    text += gnuplot_text(mesh);
     for (const auto prediction :
          {&PredictionRow::pah, &PredictionRow::pah_unclipped, &PredictionRow::sah})
       text += fmt::format(" {:.4g}",
@@ -62,12 +62,12 @@ std::string cost_plot(const StudyResults& results) {
   std::string text =
       preamble("cost", "Cost of nearest hits by area", "relative to SAH + longest axis");
   text += "set xtics rotate by -20\n$costs << EOD\ngroup";
-  for (const StudyVariant& variant : study_variants) text += " " + quoted(variant.name());
+  for (const StudyVariant& variant : study_variants) text += " " + gnuplot_text(variant.name());
   text += "\n";
   const std::vector<CostRow> rows = relative_costs(results.costs, sah_longest, &CostRow::closest);
   for (std::size_t g = 0; g < study_groups; ++g) {
     const auto group = static_cast<StudyGroup>(g);
-    text += quoted(name_of(group));
+    text += gnuplot_text(name_of(group));
     for (const StudyVariant& variant : study_variants) {
       const double mean = mean_of(
           rows, [&](const CostRow& row) { return variant.built(row) && row.tree.group == group; },
@@ -90,7 +90,7 @@ std::string sweep_plot(const StudyResults& results) {
     const std::string name = fmt::format("{} {:g}", row.parameter, row.value);
     if (std::find(done.begin(), done.end(), name) != done.end()) continue;
     done.push_back(name);
-    text += quoted(name);
+    text += gnuplot_text(name);
     for (const Heuristic heuristic : {Heuristic::surface_area, Heuristic::projected_area})
       text += fmt::format(" {:.4g}", mean_of(
                                          results.sweeps,
@@ -105,13 +105,13 @@ std::string sweep_plot(const StudyResults& results) {
   return text + "EOD\nplot for [i=2:3] $costs using i:xtic(1) title columnheader(i)\n";
 }
 
-// Medians on one thread, with bars from the least to the most.
+// Plots medians on one thread, with bars from minimum to maximum.
 std::string rays_plot(const StudyResults& results) {
   std::string text = preamble("rays", "Rays on one thread", "millions a second");
   text += "set xtics rotate by -35\nset style histogram errorbars gap 2 lw 1\n$rates << EOD\n";
   for (const RateCase& of : cases_of(results.rates)) {
     if (of.threads != 1) continue;
-    text += quoted(of.scene + ", " + of.ray_kind);
+    text += gnuplot_text(of.scene + ", " + of.ray_kind);
     for (const char* accelerator : rate_accelerators) {
       const RateSpread spread = spread_of(results.rates, of, accelerator);
       text += std::isnan(spread.median) ? " ? ? ?"

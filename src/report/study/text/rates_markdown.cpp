@@ -1,4 +1,4 @@
-// Rays a second, as tables that people read.
+// The tables of rays per second in Markdown.
 #include <algorithm>
 #include <cmath>
 
@@ -89,7 +89,7 @@ std::string rates_table(const std::vector<RateRow>& rows, const std::vector<Rate
   return text + "\n";
 }
 
-// A row for each accelerator of a scene.
+// Returns a row for each accelerator of a scene.
 std::string structures_table(const std::vector<RateRow>& rows) {
   std::string text = markdown_header(
       {"scene", "triangles", "accelerator", "build, seconds", "MB", "rays answered otherwise"});
