@@ -4,7 +4,7 @@
 
 using pah::lower_extension;
 
-TEST_CASE("an extension is the last, in lower case") {
+TEST_CASE("An extension is the last one, in lower case") {
   CHECK(lower_extension("folder.D/Picture.PNG") == ".png");
   CHECK(lower_extension("mesh.tar.Obj") == ".obj");
   CHECK(lower_extension("scene.yaml") == ".yaml");
@@ -12,6 +12,6 @@ TEST_CASE("an extension is the last, in lower case") {
   CHECK(lower_extension(".Hidden").empty());
 }
 
-TEST_CASE("letters beyond ASCII stay in an extension as they are") {
+TEST_CASE("Letters beyond ASCII in an extension keep their case") {
   CHECK(lower_extension("a.\xC3\x96X") == ".\xC3\x96x");
 }

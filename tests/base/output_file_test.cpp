@@ -26,7 +26,7 @@ std::string text_of(const fs::path& file) {
 
 }  // namespace
 
-TEST_CASE("a file is replaced as a whole, and nothing stays beside it") {
+TEST_CASE("A file is replaced as a whole and leaves nothing beside it") {
   const CurrentTemporaryFolder folder;
   pah::write_text_file("a.json", "first, and long");
   CHECK(text_of("a.json") == "first, and long");
@@ -35,7 +35,7 @@ TEST_CASE("a file is replaced as a whole, and nothing stays beside it") {
   CHECK(count_files() == 1);
 }
 
-TEST_CASE("what a killed process left is removed, and nothing else") {
+TEST_CASE("Only files that a killed process left are removed") {
   const CurrentTemporaryFolder folder;
   const pid_t ended = ::fork();
   if (ended == 0) ::_exit(0);
@@ -69,7 +69,7 @@ TEST_CASE("what a killed process left is removed, and nothing else") {
   CHECK(fs::exists(gone));
 }
 
-TEST_CASE("checking that a file can be created leaves no trace") {
+TEST_CASE("Checking that a file can be created leaves no trace") {
   const CurrentTemporaryFolder folder;
   pah::check_can_create("a.json");
   CHECK(count_files() == 0);
@@ -78,7 +78,7 @@ TEST_CASE("checking that a file can be created leaves no trace") {
   CHECK(text_of("a.json") == "old");
 }
 
-TEST_CASE("what cannot be created is an error") {
+TEST_CASE("A file that cannot be created is an error") {
   const CurrentTemporaryFolder folder;
   fs::create_directory("folder");
   std::ofstream("file") << "";
@@ -90,7 +90,7 @@ TEST_CASE("what cannot be created is an error") {
   CHECK(count_files() == 2);
 }
 
-TEST_CASE("a link stays a link") {
+TEST_CASE("A link stays a link") {
   const CurrentTemporaryFolder folder;
   std::ofstream("target") << "old";
   fs::create_symlink("target", "link");
@@ -99,13 +99,13 @@ TEST_CASE("a link stays a link") {
   CHECK(text_of("target") == "new");
 }
 
-TEST_CASE("a device stays a device, and an open file keeps what it holds") {
+TEST_CASE("A device stays a device, and an open file keeps its content") {
   const CurrentTemporaryFolder folder;
   pah::check_can_create("/dev/null");
   pah::write_text_file("/dev/null", "x");
   CHECK(fs::is_character_file("/dev/null"));
 
-  // As after a shell's `> shared`, which is what /dev/stdout may lead to.
+  // /dev/stdout leads to such a file after a shell's `> shared`.
   std::FILE* shared = std::fopen("shared", "w");
   REQUIRE(shared != nullptr);
   std::fputs("before ", shared);
@@ -118,7 +118,7 @@ TEST_CASE("a device stays a device, and an open file keeps what it holds") {
   CHECK(count_files() == 1);
 }
 
-TEST_CASE("a full disk is an error") {
+TEST_CASE("A full disk is an error") {
   if (!fs::is_character_file("/dev/full")) {
     WARN("skipped: there is no /dev/full here");
     return;

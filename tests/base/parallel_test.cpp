@@ -11,7 +11,7 @@
 
 using namespace pah;
 
-TEST_CASE("ranges cover what they are of once, and are no longer than asked", "[threads]") {
+TEST_CASE("Ranges cover each index once and stay within the grain", "[threads]") {
   for (const std::size_t count : {0UL, 1UL, 7UL, 64UL, 1000UL}) {
     std::vector<int> visits(count);
     std::atomic<bool> too_long = false;
@@ -24,7 +24,7 @@ TEST_CASE("ranges cover what they are of once, and are no longer than asked", "[
   }
 }
 
-TEST_CASE("a fold joins its chunks in their order", "[threads]") {
+TEST_CASE("A fold joins its chunks in order", "[threads]") {
   const auto digits = [](std::size_t first, std::size_t last) {
     std::string text;
     for (std::size_t i = first; i < last; ++i) text += static_cast<char>('a' + i % 26);
@@ -38,14 +38,14 @@ TEST_CASE("a fold joins its chunks in their order", "[threads]") {
         "none");
 }
 
-TEST_CASE("what a part throws is thrown by the loop", "[threads]") {
+TEST_CASE("A loop rethrows an exception of its body", "[threads]") {
   const auto fail_at_500 = [](std::size_t i) {
     if (i == 500) throw std::runtime_error("at 500");
   };
   CHECK_THROWS_WITH(parallel_for(1000, 1, fail_at_500), "at 500");
 }
 
-TEST_CASE("tasks may run tasks, and waiting ends after the last", "[threads]") {
+TEST_CASE("Tasks may run tasks, and waiting ends after the last", "[threads]") {
   std::vector<int> done(1 << 10);
   TaskGroup tasks;
   const std::function<void(std::size_t, std::size_t)> visit = [&](std::size_t first,
@@ -63,10 +63,10 @@ TEST_CASE("tasks may run tasks, and waiting ends after the last", "[threads]") {
   CHECK(done == std::vector<int>(done.size(), 1));
 }
 
-// Hidden: it is for the thread sanitizer to find.
-TEST_CASE("a planted data race", "[.race]") {
+// Hidden: it fails only under the thread sanitizer.
+TEST_CASE("The thread sanitizer finds a planted data race", "[.race]") {
   std::size_t last = 0;
-  // Either waits for the other, so that there are two threads; it orders nothing.
+  // Each task waits for the other, so that two threads run. Relaxed atomics order nothing.
   std::atomic<int> begun = 0;
   const auto give_up = std::chrono::steady_clock::now() + std::chrono::seconds(30);
   parallel_for(2, 1, [&](std::size_t i) {

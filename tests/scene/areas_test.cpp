@@ -1,4 +1,4 @@
-// Derived areas hold the rays that they are for; declared ones are where they were declared.
+// Derived areas hold the rays of their light; declared areas stay where they were declared.
 #include <algorithm>
 #include <pah/scene/areas.hpp>
 #include <pah/scene/shapes.hpp>
@@ -11,7 +11,7 @@ using namespace pah;
 
 namespace {
 
-// A box of 4 x 2 x 6 about `center`.
+// Returns a scene with a box of 4 x 2 x 6 about `center`.
 Scene scene_about(const DVec3& center) {
   Scene scene;
   scene.materials.emplace_back();
@@ -49,7 +49,7 @@ bool hold(const std::vector<SceneArea>& areas, const Vec3& point) {
   return false;
 }
 
-// How far along a ray the box ends; negative if the ray misses it.
+// Returns the distance at which a ray leaves the box; negative if it misses the box.
 double leaves_box(const Ray& ray, const Aabb& box) {
   double near = 0;
   double far = std::numeric_limits<double>::infinity();
@@ -68,7 +68,7 @@ const std::vector<DVec3> light_positions{{0, 0, 0},      {0.5, 0.3, -2},  {0, 5,
 
 }  // namespace
 
-TEST_CASE("a point light's frusta hold every segment that leads to it from the scene's box") {
+TEST_CASE("A point light's frusta hold every segment to it from the scene's box") {
   std::mt19937 random(1);
   for (const DVec3& center : {DVec3(0), DVec3(1e6, -3e5, 7)}) {
     Scene scene = scene_about(center);
@@ -83,14 +83,14 @@ TEST_CASE("a point light's frusta hold every segment that leads to it from the s
       for (const SceneArea& area : own) {
         const Frustum& frustum = std::get<PointArea>(area.area).frustum;
         CHECK(frustum.near == 0);
-        // As segments are aimed at it.
+        // Segments aim at the position rounded to float.
         const auto& model = std::get<PointLight>(world.lights[light].model);
         CHECK(contains(frustum, Vec3(model.position)));
       }
       int outside = 0;
       for (int i = 0; i < 2000; ++i) {
         Vec3 point = random_point(world.bounds, random);
-        // Often on a face, from where offset_point moves it off.
+        // Half of the points lie just outside a face, as offset_point moves them.
         if (i % 2 == 0) point.y = std::nextafterf(world.bounds.max.y, 2 * world.bounds.max.y);
         outside += hold(own, point) ? 0 : 1;
       }
@@ -99,7 +99,7 @@ TEST_CASE("a point light's frusta hold every segment that leads to it from the s
   }
 }
 
-TEST_CASE("frusta in which there is nothing are not derived") {
+TEST_CASE("Empty frusta are not derived") {
   Scene scene = scene_about(DVec3(0));
   scene.lights.push_back({"middle", PointLight{DVec3(0), Vec3(1)}});
   scene.lights.push_back({"above", PointLight{DVec3(0, 50, 0), Vec3(1)}});
@@ -115,7 +115,7 @@ TEST_CASE("frusta in which there is nothing are not derived") {
   CHECK(of_bundle(areas, 2).empty());
 }
 
-TEST_CASE("a spot's frustum holds every segment that leads to it within its cone") {
+TEST_CASE("A spot's frustum holds every segment to it within its cone") {
   std::mt19937 random(2);
   for (const double angle : {1.0, 11.0, 45.0, 79.0, 85.0, 90.0}) {
     CAPTURE(angle);
@@ -145,7 +145,7 @@ TEST_CASE("a spot's frustum holds every segment that leads to it within its cone
   }
 }
 
-TEST_CASE("a sun's box holds the scene, and none is derived for one with an angle") {
+TEST_CASE("A sun's box holds the scene, and a sun with an angle gets no box") {
   for (const DVec3& direction : {DVec3(0, -1, 0), DVec3(-1, -2, -1), DVec3(5, 0, 0)}) {
     Scene scene = scene_about(DVec3(3, -5, 1e5));
     scene.lights.push_back({"sun", DirectionalLight{direction, Vec3(1), 0}});
@@ -163,7 +163,7 @@ TEST_CASE("a sun's box holds the scene, and none is derived for one with an angl
   }
 }
 
-TEST_CASE("the camera's area holds its rays to the end of the scene") {
+TEST_CASE("The camera's area holds its rays to the end of the scene") {
   Scene scene = scene_about(DVec3(-7, 100, 3));
   scene.film.width = 40;
   scene.film.height = 25;
@@ -201,7 +201,7 @@ TEST_CASE("the camera's area holds its rays to the end of the scene") {
   }
 }
 
-TEST_CASE("nothing is derived where rays have nothing in common, or there is nothing to hit") {
+TEST_CASE("No area is derived for incoherent rays or an empty scene") {
   Scene scene = scene_about(DVec3(0));
   scene.lights.push_back({"panel", AreaLight{}});
   scene.lights.push_back({"sky", EnvironmentLight{}});
@@ -217,7 +217,7 @@ TEST_CASE("nothing is derived where rays have nothing in common, or there is not
   CHECK(areas_in(scene).empty());
 }
 
-TEST_CASE("declared areas are moved along with the scene") {
+TEST_CASE("Declared areas move along with the scene") {
   std::vector<std::vector<SceneArea>> found;
   for (const DVec3& center : {DVec3(0), DVec3(1024, -512, 4096)}) {
     Scene scene = scene_about(center);
@@ -264,7 +264,7 @@ TEST_CASE("declared areas are moved along with the scene") {
   }
 }
 
-TEST_CASE("an area is declared for a light of its kind only") {
+TEST_CASE("A declared area must suit the kind of its light") {
   Scene scene = scene_about(DVec3(0));
   scene.lights.push_back({"lamp", PointLight{}});
   scene.lights.push_back({"sun", DirectionalLight{}});

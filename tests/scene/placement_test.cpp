@@ -14,7 +14,7 @@ bool close(const DVec3& a, const DVec3& b) { return glm::distance(a, b) < 1e-12;
 
 }  // namespace
 
-TEST_CASE("lines, grids and rings stand where they should") {
+TEST_CASE("Lines, grids and rings place copies correctly") {
   const auto line = place(LineRepeat{3, {1, 2, 3}});
   REQUIRE(line.size() == 3);
   CHECK(line[2][3] == DVec3(2, 4, 6));
@@ -34,21 +34,21 @@ TEST_CASE("lines, grids and rings stand where they should") {
   CHECK(close(place(RingRepeat{4, 2, 0, false})[1][0], {1, 0, 0}));
 }
 
-TEST_CASE("counts are known before anything is allocated") {
+TEST_CASE("Counts are known before anything is allocated") {
   CHECK(count_of(GridRepeat{{3, 4, 5}}) == 60);
   CHECK(count_of(GridRepeat{UVec3(0xFFFFFFFFU)}) == UINT64_MAX);
   CHECK_THROWS_AS(place(LineRepeat{0}), std::invalid_argument);
   CHECK_THROWS_AS(place(LineRepeat{2, {NAN, 0, 0}}), std::invalid_argument);
 }
 
-TEST_CASE("composition applies the right transform first") {
+TEST_CASE("Composition applies the right transform first") {
   const glm::dmat4x3 move{DVec3{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 2, 3}};
   const glm::dmat4x3 scale{DVec3{2, 0, 0}, {0, 2, 0}, {0, 0, 2}, {0, 0, 0}};
   CHECK(compose(move, scale) * glm::dvec4(1, 1, 1, 1) == DVec3(3, 4, 5));
   CHECK(compose(scale, move) * glm::dvec4(1, 1, 1, 1) == DVec3(4, 6, 8));
 }
 
-TEST_CASE("scattering depends on its seed alone") {
+TEST_CASE("Scattering depends on its seed alone") {
   ScatterOptions options;
   options.count = 100;
   options.seed = 7;
@@ -56,7 +56,7 @@ TEST_CASE("scattering depends on its seed alone") {
   const auto a = scatter(DVec2{4, 2}, options);
   CHECK(a == scatter(DVec2{4, 2}, options));
   REQUIRE(a.size() == 100);
-  // More copies leave the first where they are.
+  // Adding copies does not move the first ones.
   options.count = 200;
   const auto b = scatter(DVec2{4, 2}, options);
   CHECK(std::equal(a.begin(), a.end(), b.begin()));
@@ -70,7 +70,7 @@ TEST_CASE("scattering depends on its seed alone") {
   }
 }
 
-TEST_CASE("scattered copies do not move between versions or platforms") {
+TEST_CASE("Scattered copies do not move between versions or platforms") {
   ScatterOptions options;
   options.count = 3;
   options.seed = 1;
@@ -80,7 +80,7 @@ TEST_CASE("scattered copies do not move between versions or platforms") {
   CHECK(copies[2][3].z == 0x1.a4c2be4ebc36ap-2);
 }
 
-TEST_CASE("rectangles are covered evenly, whether by name or as two triangles") {
+TEST_CASE("Scattering covers a rectangle evenly, given by size or as two triangles") {
   ScatterOptions options;
   options.count = 16000;
   const Mesh mesh = make_mesh(RectangleShape{{4, 4}});
@@ -95,7 +95,7 @@ TEST_CASE("rectangles are covered evenly, whether by name or as two triangles") 
   }
 }
 
-TEST_CASE("a mesh is covered by area and copies follow its normals") {
+TEST_CASE("Scattering covers a mesh in proportion to surface area and follows its normals") {
   // A box of 1 x 1 x 2: its faces along z hold 1 of 10 parts each.
   const Mesh box = make_mesh(BoxShape{{1, 1, 2}});
   ScatterOptions options;
@@ -120,7 +120,7 @@ TEST_CASE("a mesh is covered by area and copies follow its normals") {
   }
 }
 
-TEST_CASE("a minimum distance is kept") {
+TEST_CASE("Scattering keeps a minimum distance") {
   ScatterOptions options;
   options.count = 1000;
   options.min_distance = 0.5;

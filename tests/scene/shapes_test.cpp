@@ -12,8 +12,8 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-// Of a regular polygon with n corners on the unit circle: what a disk of triangles covers.
-double polygon_area(int n) { return 0.5 * n * std::sin(2 * pi / n); }
+// Surface area of a regular polygon with n corners on the unit circle.
+double polygon_measure(int n) { return 0.5 * n * std::sin(2 * pi / n); }
 
 HeightFieldShape hill(int columns, int rows) {
   HeightFieldShape shape;
@@ -34,7 +34,7 @@ std::vector<Shape> every_shape() {
 
 }  // namespace
 
-TEST_CASE("shapes have sound indices, unit normals on the outside and texture coordinates") {
+TEST_CASE("Shapes have valid indices, outward unit normals and texture coordinates") {
   for (const Shape& shape : every_shape()) {
     const Mesh mesh = make_mesh(shape);
     CAPTURE(shape.index());
@@ -46,9 +46,9 @@ TEST_CASE("shapes have sound indices, unit normals on the outside and texture co
       const Vec3 a = mesh.positions[t.x], b = mesh.positions[t.y], c = mesh.positions[t.z];
       const Vec3 normal = glm::cross(b - a, c - a);
       REQUIRE(glm::length(normal) > 0);
-      const float area = (mesh.uvs[t.y].x - mesh.uvs[t.x].x) * (mesh.uvs[t.z].y - mesh.uvs[t.x].y) -
+      const float side = (mesh.uvs[t.y].x - mesh.uvs[t.x].x) * (mesh.uvs[t.z].y - mesh.uvs[t.x].y) -
                          (mesh.uvs[t.z].x - mesh.uvs[t.x].x) * (mesh.uvs[t.y].y - mesh.uvs[t.x].y);
-      REQUIRE(area > 0);  // pictures are not mirrored
+      REQUIRE(side > 0);  // pictures are not mirrored
       for (int k = 0; k < 3; ++k) {
         const Vec3 n = mesh.normals[t[k]];
         REQUIRE(std::abs(glm::length(n) - 1) < 1e-6F);
@@ -60,7 +60,7 @@ TEST_CASE("shapes have sound indices, unit normals on the outside and texture co
   }
 }
 
-TEST_CASE("closed shapes are closed to the last bit") {
+TEST_CASE("Closed shapes are closed to the last bit") {
   for (const int segments : {3, 4, 5, 31, 64, 129}) {
     CAPTURE(segments);
     CHECK(is_closed(make_mesh(SphereShape{0.7, segments, 2})));
@@ -75,16 +75,16 @@ TEST_CASE("closed shapes are closed to the last bit") {
   CHECK_FALSE(is_closed(make_mesh(RectangleShape{})));
 }
 
-TEST_CASE("areas and volumes are those of the inscribed polyhedra") {
+TEST_CASE("Shapes have the surface areas and volumes of inscribed polyhedra") {
   CHECK(area_of(make_mesh(RectangleShape{{2, 3}})) == Approx(6));
-  CHECK(area_of(make_mesh(DiskShape{2, 7})) == Approx(4 * polygon_area(7)));
+  CHECK(area_of(make_mesh(DiskShape{2, 7})) == Approx(4 * polygon_measure(7)));
   CHECK(volume_of(make_mesh(BoxShape{{1, 2, 3}})) == Approx(6));
   CHECK(area_of(make_mesh(BoxShape{{1, 2, 3}})) == Approx(22));
-  CHECK(volume_of(make_mesh(CylinderShape{2, 3, 9})) == Approx(12 * polygon_area(9)));
-  CHECK(volume_of(make_mesh(ConeShape{2, 3, 9})) == Approx(4 * polygon_area(9)));
+  CHECK(volume_of(make_mesh(CylinderShape{2, 3, 9})) == Approx(12 * polygon_measure(9)));
+  CHECK(volume_of(make_mesh(ConeShape{2, 3, 9})) == Approx(4 * polygon_measure(9)));
   // A torus of polygons: each slice between two rings is a prism of the tube's polygon.
   CHECK(volume_of(make_mesh(TorusShape{3, 1, 512, 9})) ==
-        Approx(2 * pi * 3 * polygon_area(9)).epsilon(1e-4));
+        Approx(2 * pi * 3 * polygon_measure(9)).epsilon(1e-4));
   const double exact = 4.0 / 3 * pi;
   const double coarse = exact - volume_of(make_mesh(SphereShape{1, 64, 32}));
   const double fine = exact - volume_of(make_mesh(SphereShape{1, 128, 64}));
@@ -93,7 +93,7 @@ TEST_CASE("areas and volumes are those of the inscribed polyhedra") {
   CHECK(coarse / fine == Approx(4).epsilon(0.01));  // second order
 }
 
-TEST_CASE("a height field stands over its rectangle, first row at the far edge") {
+TEST_CASE("A height field lies over its rectangle with its first row at the far edge") {
   HeightFieldShape shape = hill(3, 2);
   shape.heights = {0, 1, 2, 3, 4, 5};
   const Mesh mesh = make_mesh(shape);
@@ -108,7 +108,7 @@ TEST_CASE("a height field stands over its rectangle, first row at the far edge")
   for (const Vec3& n : plane.normals) CHECK(glm::distance(n, expected) < 1e-6F);
 }
 
-TEST_CASE("shapes refuse values out of range") {
+TEST_CASE("Shapes reject values out of range") {
   CHECK_THROWS_AS(make_mesh(RectangleShape{{0, 1}}), std::invalid_argument);
   CHECK_THROWS_AS(make_mesh(DiskShape{NAN, 8}), std::invalid_argument);
   CHECK_THROWS_AS(make_mesh(BoxShape{{1, 1, -1}}), std::invalid_argument);

@@ -25,7 +25,7 @@ Scene scene_of(const Shape& shape, const glm::dmat4x3& transform = glm::dmat4x3{
 glm::dmat4x3 translation(const DVec3& t) { return {DVec3{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, t}; }
 glm::dmat4x3 scaling(const DVec3& s) { return {DVec3{s.x, 0, 0}, {0, s.y, 0}, {0, 0, s.z}, {}}; }
 
-// Shading normals stand on the side of the geometric ones.
+// Shading normals lie on the same side as geometric normals.
 bool normals_agree(const World& world) {
   for (const UVec3& t : world.indices) {
     const Vec3 a = world.positions[t.x], b = world.positions[t.y], c = world.positions[t.z];
@@ -37,14 +37,14 @@ bool normals_agree(const World& world) {
 
 }  // namespace
 
-TEST_CASE("an empty scene is an empty world") {
+TEST_CASE("An empty scene makes an empty world") {
   const World world = make_world(Scene{});
   CHECK(world.origin == DVec3(0));
   CHECK(world.triangles().size() == 0);
   CHECK(world.bounds.empty());
 }
 
-TEST_CASE("instances become consecutive triangles") {
+TEST_CASE("Instances become consecutive triangles") {
   Scene scene = scene_of(BoxShape{}, translation({-2, 0, 0}));
   scene.materials.emplace_back();
   scene.lights.push_back({"panel", AreaLight{}});
@@ -74,7 +74,7 @@ TEST_CASE("instances become consecutive triangles") {
   CHECK(world.bytes() >= world.positions.size() * 12 + world.indices.size() * 16);
 }
 
-TEST_CASE("mirrored instances keep their outside outside") {
+TEST_CASE("Mirrored instances keep their orientation") {
   for (const DVec3& s : {DVec3{1, 1, 1}, DVec3{-1, 1, 1}, DVec3{2, -3, 0.1}, DVec3{-1, -1, -1},
                          DVec3{-1e-9, 1e-9, 1e-9}}) {
     const World world = make_world(scene_of(TorusShape{}, scaling(s)));
@@ -85,7 +85,7 @@ TEST_CASE("mirrored instances keep their outside outside") {
   }
 }
 
-TEST_CASE("normals go by the inverse transpose") {
+TEST_CASE("Normals transform by the inverse transpose") {
   const World world = make_world(scene_of(SphereShape{}, scaling({1, 4, 1})));
   // On the ellipsoid x^2 + (y / 4)^2 + z^2 = r^2 the normal is along (x, y / 16, z).
   for (std::size_t i = 0; i < world.positions.size(); ++i) {
@@ -94,7 +94,7 @@ TEST_CASE("normals go by the inverse transpose") {
   }
 }
 
-TEST_CASE("a scene far away loses nothing") {
+TEST_CASE("A scene far from the origin keeps its precision") {
   Scene near = scene_of(SphereShape{}, scaling(DVec3{0.5}));
   Scene far = near;
   const DVec3 away{1e6, -1e6, 1048576.5};
@@ -123,7 +123,7 @@ TEST_CASE("a scene far away loses nothing") {
   CHECK(glm::distance(std::get<SpotLight>(b.lights[1].model).position, DVec3(0, 4, 0)) < 1e-9);
 }
 
-TEST_CASE("a scene scaled by a power of 2 is the same world, scaled") {
+TEST_CASE("A scene scaled by a power of 2 makes the same world, scaled") {
   const glm::dmat4x3 odd{
       DVec3{0.3, 0.1, -0.7}, {-0.2, 1.1, 0.3}, {0.9, 0.4, -0.1}, {0.123, 4.56, -7.89}};
   const World world = make_world(scene_of(TorusShape{}, odd));
@@ -138,7 +138,7 @@ TEST_CASE("a scene scaled by a power of 2 is the same world, scaled") {
   }
 }
 
-TEST_CASE("unused vertices do not move the origin") {
+TEST_CASE("Unused vertices do not move the origin") {
   Scene scene = scene_of(BoxShape{});
   scene.meshes[0].normals.clear();
   scene.meshes[0].uvs.clear();
@@ -146,7 +146,7 @@ TEST_CASE("unused vertices do not move the origin") {
   CHECK(make_world(scene).origin == DVec3(0));
 }
 
-TEST_CASE("faults are named") {
+TEST_CASE("Faults in a scene are named") {
   const auto message = [](const Scene& scene) -> std::string {
     try {
       (void)make_world(scene);
@@ -179,7 +179,7 @@ TEST_CASE("faults are named") {
   CHECK(message(scene_of(BoxShape{}, scaling(DVec3{1e-40}))).empty());
 }
 
-TEST_CASE("a camera that is shut in without light is warned of") {
+TEST_CASE("A camera inside a closed object without light causes a warning") {
   const auto warnings = [](const Scene& scene) { return make_world(scene).warnings; };
   Scene scene = scene_of(BoxShape{}, translation({3, 0, 0}));
   PerspectiveCamera camera;
@@ -188,34 +188,34 @@ TEST_CASE("a camera that is shut in without light is warned of") {
   CHECK(warnings(scene) == std::vector<std::string>{
                                "the camera is inside mesh 'thing', which is closed: no light gets "
                                "in"});
-  SECTION("unless it is outside") {
+  SECTION("A camera outside causes none") {
     camera.position.x = 3.6;
     scene.camera = camera;
     CHECK(warnings(scene).empty());
   }
-  SECTION("unless there is a lamp with it") {
+  SECTION("A lamp inside prevents it") {
     scene.lights.push_back({"bulb", PointLight{{3, 0.4, 0}}});
     CHECK(warnings(scene).empty());
   }
-  SECTION("a lamp outside does not help") {
+  SECTION("A lamp outside does not prevent it") {
     scene.lights.push_back({"bulb", PointLight{{3, 0.6, 0}}});
     CHECK(warnings(scene).size() == 1);
   }
-  SECTION("unless light comes through") {
+  SECTION("Glass prevents it") {
     scene.materials[0].model = GlassMaterial{};
     CHECK(warnings(scene).empty());
   }
-  SECTION("unless a side is open") {
+  SECTION("An opening prevents it") {
     scene.meshes[0].triangles.pop_back();
     CHECK(warnings(scene).empty());
   }
-  SECTION("mirrored, too") {
+  SECTION("A mirrored object causes it too") {
     scene.instances[0].world_from_object[0] *= -1;
     CHECK(warnings(scene).size() == 1);
   }
 }
 
-TEST_CASE("one distant object costs the others neither digits nor their place") {
+TEST_CASE("A distant object costs the others neither precision nor position") {
   Scene scene;
   PerspectiveCamera camera;
   camera.position = {0, 2, 6};
@@ -243,7 +243,7 @@ TEST_CASE("one distant object costs the others neither digits nor their place") 
                                             DVec3(alone.positions[i]) + alone.origin));
     CHECK(error < 2e-6);
     REQUIRE(world.warnings.size() == 1);
-    CHECK_THAT(world.warnings[0], contains_text("the shape is lost"));
+    CHECK_THAT(world.warnings[0], contains_text("rounding destroys its shape"));
   }
   // A camera with a long lens does not take the origin along.
   camera.position = {0, 0, 1e6};
@@ -252,13 +252,13 @@ TEST_CASE("one distant object costs the others neither digits nor their place") 
   CHECK(make_world(scene).origin == DVec3(0));
 }
 
-TEST_CASE("of several faults the same is told every time") {
+TEST_CASE("The reported fault does not depend on the threads") {
   Scene scene = scene_of(SphereShape{1, 200, 200});
   Mesh& mesh = scene.meshes[0];
   REQUIRE(mesh.positions.size() > 30'000);
   mesh.uvs.resize(mesh.positions.size());
   for (int i = 0; i < 20; ++i) {
-    // Far apart, so that different threads find them.
+    // The faults are far apart, so that different threads find them.
     mesh.positions[1] = Vec3(NAN);
     mesh.uvs[mesh.positions.size() - 1] = Vec2(NAN);
     CHECK_THROWS_WITH(make_world(scene), contains_text("a texture coordinate is not finite"));
