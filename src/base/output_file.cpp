@@ -7,17 +7,12 @@
 #include <charconv>
 #include <chrono>
 #include <fstream>
-#include <string>
 #include <system_error>
 
 namespace pah {
 namespace {
 
 namespace fs = std::filesystem;
-
-[[noreturn]] void fail(const fs::path& file, const std::string& reason) {
-  throw FileError("cannot write " + file.string() + ": " + reason);
-}
 
 std::string last_error() { return std::generic_category().message(errno); }
 
@@ -41,7 +36,7 @@ void write_all(const fs::path& file, const fs::path& named, std::string_view tex
     std::error_code ignored;
     fs::remove(file, ignored);
   }
-  fail(named, reason);
+  fail_to_write(named, reason);
 }
 
 // The parts of a temporary file's name before and after the process id.
@@ -77,6 +72,10 @@ void remove_leftovers(const fs::path& target) {
 
 }  // namespace
 
+void fail_to_write(const fs::path& file, const std::string& reason) {
+  throw FileError("cannot write " + file.string() + ": " + reason);
+}
+
 bool is_device(const fs::path& file) {
   // These may lead to regular files, but another program has those open.
   for (const char* open_file : {"/dev/std", "/dev/fd/", "/proc/"})
@@ -93,12 +92,13 @@ fs::path temporary_beside(const fs::path& file) {
 }
 
 void check_can_create(const fs::path& file) {
-  if (file.filename().empty()) fail(file, "it names no file");
+  if (file.filename().empty()) fail_to_write(file, "it names no file");
   if (is_device(file)) return;
   std::error_code error;
-  if (fs::is_directory(file, error)) fail(file, "it is a folder");
+  if (fs::is_directory(file, error)) fail_to_write(file, "it is a folder");
   const fs::path folder = resolved(file).parent_path();
-  if (!fs::is_directory(folder, error)) fail(file, "there is no folder " + folder.string());
+  if (!fs::is_directory(folder, error))
+    fail_to_write(file, "there is no folder " + folder.string());
   const fs::path probe = temporary_beside(file);
   write_all(probe, file, {});
   fs::remove(probe, error);
@@ -113,7 +113,7 @@ void put_in_place(const fs::path& temporary, const fs::path& file) {
   if (!error) return remove_leftovers(resolved(file));
   std::error_code ignored;
   fs::remove(temporary, ignored);
-  fail(file, error.message());
+  fail_to_write(file, error.message());
 }
 
 void write_text_file(const fs::path& file, std::string_view text) {

@@ -3,9 +3,13 @@
 
 #include <filesystem>
 #include <pah/base/errors.hpp>
+#include <string>
 #include <string_view>
 
 namespace pah {
+
+// Throws a FileError: cannot write `file`, for that reason.
+[[noreturn]] void fail_to_write(const std::filesystem::path& file, const std::string& reason);
 
 // Throws FileError if `file` cannot be created or replaced. Leaves no trace.
 void check_can_create(const std::filesystem::path& file);

@@ -16,7 +16,7 @@ Image ones(int width, int height) {
 
 }  // namespace
 
-TEST_CASE("images are compared in linear values") {
+TEST_CASE("Images are compared in linear values") {
   Image a = ones(2, 2);
   const Image b = ones(2, 2);
   CHECK(compare_images(a, b).max == 0);

@@ -49,7 +49,7 @@ double largest_difference(const Image& a, const Image& b) { return compare_image
 
 }  // namespace
 
-TEST_CASE("pictures survive a round trip in every format") {
+TEST_CASE("Pictures survive a round trip in every format") {
   const TemporaryFolder folder;
   const Image image = ramp(18, 10);
   for (const std::string& extension : image_extensions()) {
@@ -74,7 +74,7 @@ TEST_CASE("pictures survive a round trip in every format") {
   }
 }
 
-TEST_CASE("low dynamic range is exposed, clamped and rounded to sRGB") {
+TEST_CASE("Low dynamic range is exposed, clamped and rounded to sRGB") {
   const TemporaryFolder folder;
   Image image{5, 1, {Vec3(0.25F), Vec3(10), Vec3(-1), Vec3(NAN), Vec3(INFINITY)}};
   WriteOptions options;
@@ -107,7 +107,7 @@ TEST_CASE("PNG has 16 bits on request") {
                   std::invalid_argument);
 }
 
-TEST_CASE("high dynamic range is kept") {
+TEST_CASE("High dynamic range is kept") {
   const TemporaryFolder folder;
   const Image image = ramp(4, 4, 1e4F);
   WriteOptions options;
@@ -165,7 +165,7 @@ TEST_CASE("EXR holds layers and metadata") {
   CHECK(OIIO::ImageInput::open((folder / "a.png").string())->spec().nchannels == 3);
 }
 
-TEST_CASE("equal pictures are equal files") {
+TEST_CASE("Equal pictures make equal files") {
   const TemporaryFolder folder;
   for (const std::string& extension : image_extensions()) {
     CAPTURE(extension);
@@ -178,7 +178,7 @@ TEST_CASE("equal pictures are equal files") {
   }
 }
 
-TEST_CASE("what cannot be written is said before rendering") {
+TEST_CASE("An output that cannot be written is rejected before rendering") {
   const TemporaryFolder folder;
   const auto check = [](const std::filesystem::path& file) {
     return message_of([&] { check_writable(file); });
@@ -193,7 +193,7 @@ TEST_CASE("what cannot be written is said before rendering") {
             "none/a.png"));
 }
 
-TEST_CASE("a full disk is noticed and the old picture kept") {
+TEST_CASE("A full disk is an error and the old picture is kept") {
   const TemporaryFolder folder;
   const Image small = ramp(2, 2);
   std::signal(SIGXFSZ, SIG_IGN);
@@ -215,7 +215,7 @@ TEST_CASE("a full disk is noticed and the old picture kept") {
         static_cast<std::ptrdiff_t>(image_extensions().size()));
 }
 
-TEST_CASE("what cannot be read is said") {
+TEST_CASE("A picture that cannot be read is an error") {
   const TemporaryFolder folder;
   const auto read = [](const std::filesystem::path& file, std::uint64_t limit = 1 << 20) {
     return message_of([&] { (void)read_image(file, limit); });
@@ -242,14 +242,14 @@ TEST_CASE("what cannot be read is said") {
   }
 }
 
-TEST_CASE("a header that asks for the moon gets nothing") {
+TEST_CASE("A header that claims a huge size allocates nothing") {
   const TemporaryFolder folder;
   std::ofstream(folder / "huge.hdr", std::ios::binary)
       << "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1000000 +X 1000000\n";
   CHECK(has(message_of([&] { (void)read_image(folder / "huge.hdr"); }), "huge.hdr"));
 }
 
-TEST_CASE("gray pictures are read as linear heights") {
+TEST_CASE("Gray pictures are read as linear heights") {
   const TemporaryFolder folder;
   const auto out = OIIO::ImageOutput::create("gray.png");
   REQUIRE(out->open((folder / "gray.png").string(), OIIO::ImageSpec(2, 1, 1, OIIO::TypeUInt16)));

@@ -49,7 +49,7 @@ std::string written(const std::string& extension, const std::string& attribute =
 
 }  // namespace
 
-TEST_CASE("what a picture is does not depend on its name") {
+TEST_CASE("A picture's format does not depend on its name") {
   for (const char* extension : {".png", ".jpg", ".exr", ".hdr", ".tif", ".bmp", ".tga", ".webp"})
     for (const char* name : {"a.png", "a.jpg", "a.exr", "a.txt", "a"}) {
       CAPTURE(extension, name);
@@ -57,7 +57,7 @@ TEST_CASE("what a picture is does not depend on its name") {
     }
 }
 
-TEST_CASE("only the formats of the list are read") {
+TEST_CASE("Only listed formats are read") {
   CHECK(picture_format_names() == "PNG, JPEG, EXR, Radiance HDR, TIFF, BMP, WebP, TGA");
   for (const std::string& head :
        {"SDPX"s, "XPDS"s, "8BPS\0\1"s, "P6 1 1 255\nabc"s, "GIF89a"s, "DDS "s, "SIMPLE  ="s,
@@ -69,7 +69,7 @@ TEST_CASE("only the formats of the list are read") {
   CHECK(fault_of("") == "it is empty");
 }
 
-TEST_CASE("sizes are checked before anything is decoded") {
+TEST_CASE("Sizes are checked before anything is decoded") {
   CHECK_THAT(fault_of(test::png(60000, 60000, true, test::one_gray_pixel)),
              contains_text("60000 x 60000 pixels of 3 channels are more than 4096 MiB"));
   CHECK_THAT(fault_of(test::png(100, 100, false, test::one_gray_pixel), "a.png", 119999),
@@ -86,7 +86,7 @@ TEST_CASE("sizes are checked before anything is decoded") {
              contains_text("65536 x 65535"));
 }
 
-TEST_CASE("files that end early are refused") {
+TEST_CASE("Files that end early are rejected") {
   for (const char* extension : {".png", ".jpg", ".exr", ".hdr", ".tif", ".bmp", ".tga", ".webp"}) {
     const std::string whole = written(extension);
     // What follows a TGA file's texels is not read.
@@ -98,7 +98,7 @@ TEST_CASE("files that end early are refused") {
   }
 }
 
-TEST_CASE("metadata is not read, so it cannot do harm") {
+TEST_CASE("Metadata is not read and so does no harm") {
   const std::string damaged = "iCCP\0\0"s + std::string(200, '\xFF');
   CHECK(fault_of(test::png(1, 1, false, test::one_gray_pixel)).empty());
   CHECK(fault_of(test::png(1, 1, false, test::one_gray_pixel, test::png_chunk("iCCP", damaged)))
@@ -117,7 +117,7 @@ TEST_CASE("metadata is not read, so it cannot do harm") {
   }
 }
 
-TEST_CASE("a TIFF file whose directories go in a circle is read") {
+TEST_CASE("A TIFF file with circular directories is read") {
   std::string bytes = written(".tif");
   const auto at = [&](std::size_t i) {
     return static_cast<std::size_t>(static_cast<unsigned char>(bytes[i]));
@@ -128,7 +128,7 @@ TEST_CASE("a TIFF file whose directories go in a circle is read") {
   CHECK(fault_of(bytes).empty());
 }
 
-TEST_CASE("damaged bytes of every format are refused or read") {
+TEST_CASE("Damaged bytes of every format are rejected or read") {
   std::mt19937 rng(3);
   for (const char* extension : {".png", ".jpg", ".exr", ".hdr", ".tif", ".bmp", ".tga", ".webp"}) {
     const std::string whole = written(extension, "Exif:LensModel", "a lens");
@@ -141,7 +141,7 @@ TEST_CASE("damaged bytes of every format are refused or read") {
   }
 }
 
-TEST_CASE("what is no number in a file is black") {
+TEST_CASE("Values that are not finite are black") {
   const TemporaryFolder folder;
   const std::string file = (folder / "a.exr").string();
   const std::vector<float> values{NAN, INFINITY, -INFINITY, 2e30F, 0.5F};

@@ -90,7 +90,7 @@ Vec2 center_of(int x, int y, int width, int height) {
 
 }  // namespace
 
-TEST_CASE("texels of a linear image, v = 0 at the bottom") {
+TEST_CASE("Texels of a linear image are sampled with v = 0 at the bottom") {
   const ImageFolder folder;
   const auto texel = [](int x, int y, int c) { return 0.25F * static_cast<float>(x + 4 * y + c); };
   const TextureStore store = store_of({folder.write("a.exr", 4, 8, 3, OIIO::TypeFloat, texel)});
@@ -106,7 +106,7 @@ TEST_CASE("texels of a linear image, v = 0 at the bottom") {
   CHECK(store.sample(0, {0.25F, 1 - 0.5F / 8}).x == Approx(0.125));
 }
 
-TEST_CASE("integer color images are sRGB unless declared otherwise, or used as data") {
+TEST_CASE("Integer color images are sRGB unless declared linear or used as data") {
   const ImageFolder folder;
   const auto code = [](int x, int, int) { return static_cast<float>(x * 17) / 255.0F; };
   const auto check = [&](const fs::path& file, ColorSpace space, TextureUse use, bool decoded) {
@@ -135,7 +135,7 @@ TEST_CASE("integer color images are sRGB unless declared otherwise, or used as d
   check(real, ColorSpace::srgb, TextureUse::color, true);
 }
 
-TEST_CASE("a footprint averages light, not code values") {
+TEST_CASE("A footprint averages light, not code values") {
   const ImageFolder folder;
   const auto dots = [](int x, int y, int) { return static_cast<float>((x + y) % 2); };
   // Scanlines, tiles and stored levels each go their own way through the decoder.
@@ -153,7 +153,7 @@ TEST_CASE("a footprint averages light, not code values") {
   }
 }
 
-TEST_CASE("stored levels of a texture file are decoded and used") {
+TEST_CASE("Stored levels of a texture file are decoded and used") {
   const ImageFolder folder;
   const auto gray = [](int, int, int) { return 0.5F; };
   const fs::path flat = folder.write("flat.png", 128, 128, 3, OIIO::TypeUInt8, gray);
@@ -170,7 +170,7 @@ TEST_CASE("stored levels of a texture file are decoded and used") {
   }
 }
 
-TEST_CASE("channels become colors, alpha apart") {
+TEST_CASE("Channels become colors, with alpha apart") {
   const ImageFolder folder;
   const auto ramp = [](int, int, int c) { return 0.2F * static_cast<float>(c + 1); };
   const auto texel = [&](int channels) {
@@ -194,7 +194,7 @@ TEST_CASE("channels become colors, alpha apart") {
   }
 }
 
-TEST_CASE("coordinates are scaled, repeat or clamp, and may be anything") {
+TEST_CASE("Coordinates are scaled, repeated or clamped, and may be any number") {
   const ImageFolder folder;
   const auto ramp = [](int x, int y, int) { return static_cast<float>(x + 10 * y); };
   const fs::path file = folder.write("a.tif", 8, 8, 3, OIIO::TypeFloat, ramp);
@@ -220,7 +220,7 @@ TEST_CASE("coordinates are scaled, repeat or clamp, and may be anything") {
   }
 }
 
-TEST_CASE("checkerboards, sharp and averaged") {
+TEST_CASE("Checkerboards are sharp without a footprint and averaged over one") {
   CheckerTexture checker;
   checker.a = Vec3{1};
   checker.b = Vec3{0};
@@ -251,7 +251,7 @@ TEST_CASE("checkerboards, sharp and averaged") {
   CHECK_THROWS_AS(store.image(0), TextureError);
 }
 
-TEST_CASE("inputs multiply their texture") {
+TEST_CASE("Inputs multiply their texture") {
   CheckerTexture checker;
   checker.a = {0.5F, 0.25F, 1};
   checker.b = checker.a;
@@ -263,7 +263,7 @@ TEST_CASE("inputs multiply their texture") {
   CHECK(store.scalar({3, 0, 1}, {}) == 0.75F);
 }
 
-TEST_CASE("a whole image for importance sampling") {
+TEST_CASE("Importance sampling gets the whole image") {
   const ImageFolder folder;
   const auto texel = [](int x, int y, int) { return static_cast<float>(x + 2 * y) / 255.0F; };
   const TextureStore store = store_of({folder.write("a.png", 2, 3, 3, OIIO::TypeUInt8, texel)});
@@ -276,7 +276,7 @@ TEST_CASE("a whole image for importance sampling") {
   }
 }
 
-TEST_CASE("what cannot be read is refused, by name") {
+TEST_CASE("A texture that cannot be read is rejected by name") {
   const ImageFolder folder;
   CHECK_THAT(error_of({folder / "missing.png"}), contains_text("missing.png"));
   std::ofstream(folder / "text.png") << "this is no picture";
@@ -296,7 +296,7 @@ TEST_CASE("what cannot be read is refused, by name") {
   }
 }
 
-TEST_CASE("an image beyond the limit is refused before it is decoded") {
+TEST_CASE("An image beyond the limit is rejected before it is decoded") {
   const ImageFolder folder;
   const auto gray = [](int, int, int) { return 0.5F; };
   const fs::path file = folder.write("a.png", 100, 100, 3, OIIO::TypeUInt8, gray);
@@ -311,7 +311,7 @@ TEST_CASE("an image beyond the limit is refused before it is decoded") {
   CHECK_THAT(error_of({folder / "huge.tga"}), contains_text("65535 x 65535"));
 }
 
-TEST_CASE("damaged files are refused or black, never fatal") {
+TEST_CASE("Damaged files are rejected or black, never fatal") {
   const ImageFolder folder;
   const auto noise = [](int x, int y, int c) {
     return static_cast<float>((x * 7919 + y * 104729 + c * 31) % 256) / 255.0F;
@@ -350,8 +350,7 @@ TEST_CASE("damaged files are refused or black, never fatal") {
   }
 }
 
-TEST_CASE("look-ups give the same from any number of threads, whatever fits the cache",
-          "[threads]") {
+TEST_CASE("Look-ups do not depend on the number of threads or the size of the cache", "[threads]") {
   const ImageFolder folder;
   const auto noise = [](int x, int y, int c) {
     return static_cast<float>((x * 7919 + y * 104729 + c * 31) % 256) / 255.0F;
@@ -375,7 +374,7 @@ TEST_CASE("look-ups give the same from any number of threads, whatever fits the 
   CHECK(parallel == expected);
 }
 
-TEST_CASE("a picture inside of another file is read in any order") {
+TEST_CASE("A picture inside another file is read in any order") {
   const ImageFolder folder;
   for (const char* name : {"a.png", "a.jpg"}) {
     CAPTURE(name);

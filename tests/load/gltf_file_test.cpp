@@ -98,7 +98,7 @@ bool has(const std::string& text, const std::string& part) {
 
 }  // namespace
 
-TEST_CASE("glTF: a square, as text and as bytes") {
+TEST_CASE("A glTF square loads from text and from binary") {
   const Files files;
   for (const auto& file : {files.write(square()), files.write_binary(square())}) {
     CAPTURE(file);
@@ -123,7 +123,7 @@ TEST_CASE("glTF: a square, as text and as bytes") {
   }
 }
 
-TEST_CASE("glTF: nodes transform and repeat") {
+TEST_CASE("glTF nodes transform and repeat meshes") {
   const Files files;
   Json json = square();
   json["nodes"] = Json::parse(R"([
@@ -148,7 +148,7 @@ TEST_CASE("glTF: nodes transform and repeat") {
   CHECK(whole.parts[1].world_from_object[3] == DVec3(10, 0, 5));
 }
 
-TEST_CASE("glTF: cameras and lights") {
+TEST_CASE("glTF cameras and lights load") {
   const Files files;
   Json json = square();
   json["extensionsUsed"] = {"KHR_lights_punctual"};
@@ -197,7 +197,7 @@ TEST_CASE("glTF: cameras and lights") {
   CHECK(glm::distance(glm::normalize(spot.direction), DVec3(0, 0, -1)) < 1e-6);
 }
 
-TEST_CASE("glTF: textures") {
+TEST_CASE("glTF textures load") {
   const Files files;
   files.write("images/a b.png", "never opened");
   Json json = square();
@@ -237,7 +237,7 @@ TEST_CASE("glTF: textures") {
   CHECK(glow.two_sided);
 }
 
-TEST_CASE("glTF: images inside of the file") {
+TEST_CASE("glTF images inside the file load") {
   const Files files;
   Json json = square();
   json["images"] = Json::parse(R"([{"bufferView": 1, "mimeType": "image/png"},
@@ -256,7 +256,7 @@ TEST_CASE("glTF: images inside of the file") {
   CHECK(*std::get<ImageTexture>(file.textures[1]).bytes == "hello");
 }
 
-TEST_CASE("glTF: accessors that are sparse, without data or normalized") {
+TEST_CASE("glTF accessors may be sparse, without data or normalized") {
   const Files files;
   Json json = square();
   // All positions are 0 but for two: the second and third index, 1 and 2, become (1, 0, 0) and
@@ -274,7 +274,7 @@ TEST_CASE("glTF: accessors that are sparse, without data or normalized") {
   for (const Vec2& uv : read_mesh(files.write(json)).uvs) CHECK((uv.x >= 0 && uv.x <= 1));
 }
 
-TEST_CASE("glTF: vertex colors") {
+TEST_CASE("glTF vertex colors load") {
   const Files files;
   Json json = square();
   Json& color = json["meshes"][0]["primitives"][0]["attributes"]["COLOR_0"];
@@ -300,7 +300,7 @@ TEST_CASE("glTF: vertex colors") {
   CHECK(has(files.error_of(json), "attribute COLOR_0 has 3 values for 4 vertices"));
 }
 
-TEST_CASE("glTF: what is shown without a scene, and how triangles are listed") {
+TEST_CASE("glTF files without a scene and with triangle strips or fans load") {
   const Files files;
   Json json = square();
   json["nodes"] = Json::parse(R"([{"mesh": 0}, {"children": [0]}, {"mesh": 0}])");
@@ -320,7 +320,7 @@ TEST_CASE("glTF: what is shown without a scene, and how triangles are listed") {
   CHECK(has(files.error_of(json), "no triangles"));
 }
 
-TEST_CASE("glTF: strength of emission, cut-outs, and what is left out") {
+TEST_CASE("glTF emissive strength and cut-outs load, and ignored parts cause warnings") {
   const Files files;
   Json json = square();
   Json& material = json["materials"][0];
@@ -340,7 +340,7 @@ TEST_CASE("glTF: strength of emission, cut-outs, and what is left out") {
   CHECK(has(files.error_of(json), "it needs KHR_materials_clearcoat"));
 }
 
-TEST_CASE("glTF: nothing outside of the folder is opened") {
+TEST_CASE("glTF opens no file outside its folder") {
   const Files files;
   for (const char* uri : {"../square.bin", "/etc/passwd", "a/../../square.bin", "%2e%2e/square.bin",
                           "file:///etc/passwd"}) {
@@ -357,7 +357,7 @@ TEST_CASE("glTF: nothing outside of the folder is opened") {
   }
 }
 
-TEST_CASE("glTF: what is broken is said") {
+TEST_CASE("Broken glTF files are errors") {
   const Files files;
   const auto broken = [&](const std::string& pointer, const Json& value) {
     Json json = square();
@@ -403,7 +403,7 @@ TEST_CASE("glTF: what is broken is said") {
   CHECK(has(files.error_of(square()), "position of vertex 0 is not finite"));
 }
 
-TEST_CASE("glTF: skins, morphs and animations are left aside") {
+TEST_CASE("glTF skins, morphs and animations are ignored") {
   const Files files;
   Json json = square();
   json["skins"] = Json::parse(R"([{"joints": [0, 99]}])");
@@ -416,7 +416,7 @@ TEST_CASE("glTF: skins, morphs and animations are left aside") {
     CHECK(read_mesh(file).triangles.size() == 2);
 }
 
-TEST_CASE("glTF: nodes in a circle, too deep, or shared") {
+TEST_CASE("glTF nodes that are circular, too deep or shared are errors") {
   const Files files;
   Json json = square();
   json["nodes"] = Json::parse(R"([{"mesh": 0}, {"children": [2]}, {"children": [1]}])");
@@ -429,7 +429,7 @@ TEST_CASE("glTF: nodes in a circle, too deep, or shared") {
   CHECK(has(files.error_of(json), "256 deep"));
 }
 
-TEST_CASE("glTF: files that are cut short") {
+TEST_CASE("glTF files that end early are errors") {
   const Files files;
   std::ifstream stream(files.write_binary(square()), std::ios::binary);
   const std::string whole((std::istreambuf_iterator<char>(stream)), {});
@@ -444,7 +444,7 @@ TEST_CASE("glTF: files that are cut short") {
   CHECK(has(Files::error_of(files.write("deep.gltf", deep)), "not JSON"));
 }
 
-TEST_CASE("glTF: mutated files are meshes or errors") {
+TEST_CASE("Mutated glTF files load or are errors") {
   const Files files;
   Json json = square();
   json["nodes"][0] = Json::parse(R"({"children": [1, 2], "translation": [1, 2, 3]})");

@@ -52,7 +52,7 @@ float width(const LoadedScene& loaded) { return loaded.scene.meshes.at(0).positi
 
 }  // namespace
 
-TEST_CASE("a mesh that does not change is read once, and one that does again") {
+TEST_CASE("A mesh is read again only if its file changed") {
   Loads loads("meshes: [{file: a.obj}]");
   write_text(loads / "a.obj", triangle);
   const LoadedScene first = loads.load();
@@ -71,7 +71,7 @@ TEST_CASE("a mesh that does not change is read once, and one that does again") {
   CHECK(loads.errors().find("does not exist") != std::string::npos);
 }
 
-TEST_CASE("a mesh is read again when a file that it names changes") {
+TEST_CASE("A mesh is read again if a file that it names changed") {
   Loads loads("meshes: [{file: a.obj, use: [materials]}]");
   write_text(loads / "a.obj", "mtllib a.mtl\n" + triangle.substr(0, 24) + "usemtl m\nf 1 2 3\n");
   write_text(loads / "a.mtl", "newmtl m\nKd 0.5 0.5 0.5\n");
@@ -89,7 +89,7 @@ TEST_CASE("a mesh is read again when a file that it names changes") {
   CHECK_FALSE(loads.load().warnings.empty());
 }
 
-TEST_CASE("a mesh is kept for each way to read it") {
+TEST_CASE("A mesh is kept for each way of reading it") {
   Loads loads("meshes: [{file: a.obj, normals: smooth}, {file: a.obj, normals: flat}]");
   write_text(loads / "a.obj", triangle);
   for (int i = 0; i < 2; ++i) {
@@ -100,7 +100,7 @@ TEST_CASE("a mesh is kept for each way to read it") {
   }
 }
 
-TEST_CASE("a picture that does not change is checked once, and one that does again") {
+TEST_CASE("A picture is checked again only if its file changed") {
   Loads loads("textures: {t: {type: image, file: a.tga}}");
   const std::string whole = test::tga(2, 2, "twelve bytes");
   write_text(loads / "a.tga", whole);
@@ -112,7 +112,7 @@ TEST_CASE("a picture that does not change is checked once, and one that does aga
   CHECK(loads.errors().find("cannot read image 'a.tga'") != std::string::npos);
 }
 
-TEST_CASE("what a scene does not name any more is not kept") {
+TEST_CASE("Files that the scene no longer names are not kept") {
   Loads loads("meshes: [{file: a.obj}]");
   write_text(loads / "a.obj", triangle);
   (void)loads.load();

@@ -40,7 +40,7 @@ std::string camera_errors(const std::string& fov) {
 
 }  // namespace
 
-TEST_CASE("an expression is evaluated as it is read") {
+TEST_CASE("An expression follows the usual precedence") {
   CHECK(value_of("frame") == 6);
   CHECK(value_of("time") == 0.25);
   CHECK(value_of("1 + 2 * frame - 3") == 10);
@@ -57,7 +57,7 @@ TEST_CASE("an expression is evaluated as it is read") {
   CHECK(value_of(std::string(60, '(') + "frame" + std::string(60, ')')) == 6);
 }
 
-TEST_CASE("a text that is no expression has no value") {
+TEST_CASE("An invalid expression has no value") {
   for (const std::string text :
        {"", "frame frame", "frame +", "(frame", "frame)", "2frame(", "frames", "frame.obj", "sin",
         "sin frame", "sine(frame)", "* frame", "frame ** 2", "frame,", "frame\n", "0x10"})
@@ -66,7 +66,7 @@ TEST_CASE("a text that is no expression has no value") {
   CHECK_FALSE(evaluate(std::string(100'000, '-') + "frame", {}));
 }
 
-TEST_CASE("an expression stands wherever a number does") {
+TEST_CASE("An expression may replace any number") {
   CHECK(fov_at("30 + frame", 12) == 42);
   CHECK(fov_at("30 + 10 * time", 12) == 35);
   CHECK(fov_at("30 + 10 * time", 12, "animation: {fps: 12}") == 40);
@@ -82,7 +82,7 @@ TEST_CASE("an expression stands wherever a number does") {
         Vec3(0.5));
 }
 
-TEST_CASE("without a frame to load, the scene is as it says itself") {
+TEST_CASE("Without a chosen frame, a scene loads its own") {
   const std::string text = "camera: {type: perspective, fov: 30 + frame}\n";
   const auto fov = [](const LoadedScene& loaded) {
     return std::get<PerspectiveCamera>(loaded.scene.camera).fov;
@@ -96,7 +96,7 @@ TEST_CASE("without a frame to load, the scene is as it says itself") {
       55);
 }
 
-TEST_CASE("keyframes are met, and numbers between them lie between theirs") {
+TEST_CASE("Numbers equal their keyframes and interpolate between them") {
   for (const std::string kind : {"linear", "smooth"}) {
     const std::string fov =
         "{keys: {0: 30, 8: 50, 10.5: 40, 20: 40, 24: 90}, interpolation: " + kind + "}";
@@ -119,7 +119,7 @@ TEST_CASE("keyframes are met, and numbers between them lie between theirs") {
   CHECK(loaded.scene.instances.at(0).world_from_object[3] == DVec3(0, 2, 0));
 }
 
-TEST_CASE("smooth keyframes begin and end at rest, never jump, and do not overshoot") {
+TEST_CASE("Smooth keyframes start and end at rest, never jump and do not overshoot") {
   std::mt19937 random(1);
   std::uniform_real_distribution<double> number(-5, 5), gap(0.1, 4);
   for (int repeat = 0; repeat < 100; ++repeat) {
@@ -149,7 +149,7 @@ TEST_CASE("smooth keyframes begin and end at rest, never jump, and do not oversh
   }
 }
 
-TEST_CASE("what is wrong with expressions and keyframes is told at its place") {
+TEST_CASE("Errors in expressions and keyframes have a location") {
   CHECK(camera_errors("30 + fram") ==
         "scene.yaml:1:34: error: 'fov' of camera must be a number, not '30 + fram'; did you mean "
         "'frame'?\n");
@@ -185,7 +185,7 @@ TEST_CASE("what is wrong with expressions and keyframes is told at its place") {
         "scene.yaml:1:13: error: unknown key 'fsp' in animation; did you mean 'fps'?\n");
 }
 
-TEST_CASE("a scene knows whether it moves, and its hash the frame if so") {
+TEST_CASE("A scene knows whether it moves, and then its hash includes the frame") {
   const std::string still = "camera: {type: perspective, fov: 30}";
   const std::string moving = "camera: {type: perspective, fov: 30 + frame}";
   CHECK_FALSE(load(still).animated);
@@ -196,7 +196,7 @@ TEST_CASE("a scene knows whether it moves, and its hash the frame if so") {
   CHECK(load("camera: {type: perspective, fov: {keys: {3: 30}}}").animated);
 }
 
-TEST_CASE("aliases of animated values move, and materials may be named keys") {
+TEST_CASE("Aliases of animated values move, and materials may be named keys") {
   const LoadedScene loaded = load(
       "x-size: &size [1, 1 + frame, 1]\n"
       "meshes: [{shape: box, size: *size}, {shape: box, size: *size}]\n"

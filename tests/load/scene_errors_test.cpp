@@ -11,7 +11,7 @@
 
 using namespace pah;
 
-TEST_CASE("an error has place, suggestion, excerpt and caret") {
+TEST_CASE("An error has a location, suggestion, excerpt and caret") {
   const TemporaryFolder folder;
   const auto file = write_text(folder / "scene.yaml",
                                "materials:\n"
@@ -32,7 +32,7 @@ TEST_CASE("an error has place, suggestion, excerpt and caret") {
   }
 }
 
-TEST_CASE("columns count characters, and the caret stands under the place") {
+TEST_CASE("Columns count characters, and the caret is under the location") {
   const TemporaryFolder folder;
   const auto file = write_text(folder / "scene.yaml", "film: {\"h\xC3\xB6he\":\t3, x: 1}\n");
   try {
@@ -45,7 +45,7 @@ TEST_CASE("columns count characters, and the caret stands under the place") {
   }
 }
 
-TEST_CASE("a long line is shown in part") {
+TEST_CASE("A long line is shown in part") {
   const std::string text = "x-a: [" + std::string(3000, '1') + "]\nfilm: {width: [" +
                            std::string(3000, '2') + "], x: 1, " + std::string(3000, ' ') + "}\n";
   const TemporaryFolder folder;
@@ -60,7 +60,7 @@ TEST_CASE("a long line is shown in part") {
   }
 }
 
-TEST_CASE("all errors are reported at once, in order") {
+TEST_CASE("All errors are reported at once, in order") {
   CHECK(errors_of("lights:\n"
                   "  - {name: sun, type: directional, irradiance: much}\n"
                   "film: {width: 0}\n"
@@ -74,7 +74,7 @@ TEST_CASE("all errors are reported at once, in order") {
         "scene.yaml:4:23: error: unknown key 'sed' in render; did you mean 'seed'?\n");
 }
 
-TEST_CASE("beyond a hundred errors, their number") {
+TEST_CASE("Errors beyond a hundred are only counted") {
   std::string text = "film:\n";
   for (int i = 0; i < 250; ++i) text += "  zzzzzzz" + std::to_string(i) + ": 1\n";
   const std::string errors = errors_of(text);
@@ -82,7 +82,7 @@ TEST_CASE("beyond a hundred errors, their number") {
   CHECK(errors.ends_with("scene.yaml: error: and 150 more errors\n"));
 }
 
-TEST_CASE("bad YAML") {
+TEST_CASE("Bad YAML is an error") {
   check_all({
       {"", "scene.yaml: error: the file holds no scene"},
       {"# nothing\n", "scene.yaml: error: the file holds no scene"},
@@ -107,7 +107,7 @@ TEST_CASE("bad YAML") {
   });
 }
 
-TEST_CASE("bytes that are no text") {
+TEST_CASE("Bytes that are not text are an error") {
   CHECK(errors_of(std::string_view("film:\n  a\0b", 11)) ==
         "scene.yaml:2:4: error: not a text file: it holds the byte 0x00\n");
   CHECK(errors_of("a: \x04\n") ==
@@ -117,13 +117,13 @@ TEST_CASE("bytes that are no text") {
         "scene.yaml:1:4: error: not a text file: it is not UTF-8\n");
 }
 
-TEST_CASE("a byte order mark and Windows line ends are no errors") {
+TEST_CASE("A byte order mark and Windows line ends are accepted") {
   CHECK(errors_of("\xEF\xBB\xBF"
                   "film: {width: 3}\r\nrender: {samples: x}\r\n") ==
         "scene.yaml:2:19: error: 'samples' of render must be a whole number, not 'x'\n");
 }
 
-TEST_CASE("aliases that hold themselves or grow without limit") {
+TEST_CASE("Aliases that contain themselves or grow without limit are errors") {
   check_all({{"x-a: &a\n  - [1, *a]\n",
               "scene.yaml:2:9: error: this alias refers to a value that contains it"},
              {"x-a: &a {b: *a}\n",
@@ -146,7 +146,7 @@ TEST_CASE("aliases that hold themselves or grow without limit") {
   CHECK(errors_of(deep) == "scene.yaml:15:16: error: nested more than 64 levels deep\n");
 }
 
-TEST_CASE("merge keys that grow without limit") {
+TEST_CASE("Merge keys that grow without limit are errors") {
   std::string text = "x-a: &a {";
   for (int i = 0; i < 1000; ++i) text += "k" + std::to_string(i) + ": 1, ";
   text += "}\nx-b: {<<: [*a";
@@ -161,7 +161,7 @@ TEST_CASE("merge keys that grow without limit") {
   CHECK(errors_of(text, options).find("more than 3000000") != std::string::npos);
 }
 
-TEST_CASE("deep nesting does not reach the stack's end") {
+TEST_CASE("Deep nesting does not overflow the stack") {
   CHECK(errors_of(std::string(1'000'000, '[')) ==
         "scene.yaml:1:4097: error: too many open brackets\n");
   std::string dashes;
@@ -172,7 +172,7 @@ TEST_CASE("deep nesting does not reach the stack's end") {
   CHECK(errors_of("x-a: " + std::string(63, '[') + std::string(63, ']')).empty());
 }
 
-TEST_CASE("a scene file that is none") {
+TEST_CASE("A file that is not a scene is an error") {
   const TemporaryFolder folder;
   CHECK_THROWS_WITH(load_scene(folder.path()),
                     "cannot read '" + folder.path().string() + "': it is a directory");
@@ -183,7 +183,7 @@ TEST_CASE("a scene file that is none") {
         "scene.yaml: error: larger than the limit of 10 bytes\n");
 }
 
-TEST_CASE("mutated scenes load or are refused, with a place") {
+TEST_CASE("Mutated scenes load or are errors with a location") {
   const TemporaryFolder folder;
   std::filesystem::copy(test::source_folder() / "scenes", folder.path(),
                         std::filesystem::copy_options::recursive);

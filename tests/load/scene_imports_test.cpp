@@ -62,7 +62,7 @@ const PerspectiveCamera& camera_of(const Scene& scene) {
 
 }  // namespace
 
-TEST_CASE("a mesh file's camera is chosen by name and adjusted") {
+TEST_CASE("A scene chooses a mesh file's camera by name and adjusts it") {
   const Kitchen files;
   const std::string first = "meshes: [{file: kitchen.gltf, use: [cameras]}]\n";
   const std::string close = "meshes: [{file: kitchen.gltf, use: [cameras], use_camera: close}]\n";
@@ -85,7 +85,7 @@ TEST_CASE("a mesh file's camera is chosen by name and adjusted") {
         "aperture_radius and focus_distance");
 }
 
-TEST_CASE("a mesh file's lights are scaled") {
+TEST_CASE("A scene scales a mesh file's lights") {
   const Kitchen files;
   const Scene scene =
       files.load("meshes: [{file: kitchen.gltf, use: [materials, lights], light_scale: 0.5}]");
@@ -96,7 +96,7 @@ TEST_CASE("a mesh file's lights are scaled") {
         "1:44: 'light_scale' needs the file's lights: use: [lights]");
 }
 
-TEST_CASE("a mesh file's emissive texture and double-sidedness come with its light") {
+TEST_CASE("A mesh file's light keeps its emissive texture and double-sidedness") {
   const Kitchen files;
   std::string text = kitchen;
   const std::string factor = R"("emissiveFactor")";
@@ -115,7 +115,7 @@ TEST_CASE("a mesh file's emissive texture and double-sidedness come with its lig
   CHECK(std::get<ImageTexture>(scene.textures.at(glow.image)).file.filename() == "glow.png");
 }
 
-TEST_CASE("a mesh file's materials are replaced by name") {
+TEST_CASE("A scene replaces a mesh file's materials by name") {
   const Kitchen files;
   const std::string start = "materials: {m: {type: mirror}}\nmeshes: [{file: kitchen.gltf, ";
   const Scene scene = files.load(start + "use: [materials], replace: {paint: m}}]");

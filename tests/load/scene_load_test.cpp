@@ -38,7 +38,7 @@ void check_near(const DVec3& a, const DVec3& b) { CHECK(glm::distance(a, b) < 1e
 
 }  // namespace
 
-TEST_CASE("each file of a scene is told of before it is read, and if it is not there") {
+TEST_CASE("A scene announces each file before reading it, even a missing one") {
   const TemporaryFolder folder;
   const std::map<std::string, std::string> texts{
       {"mesh.obj", "mtllib a.mtl\nusemtl m\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"},
@@ -71,7 +71,7 @@ TEST_CASE("each file of a scene is told of before it is read, and if it is not t
   CHECK(told.contains("no.tga"));
 }
 
-TEST_CASE("a scene with nothing in it has every default") {
+TEST_CASE("A minimal scene has every default") {
   const Scene scene = load("x-nothing: 1\nmeshes:\n").scene;
   const auto& camera = std::get<PerspectiveCamera>(scene.camera);
   CHECK(camera.position == DVec3(0, 1, 5));
@@ -98,7 +98,7 @@ TEST_CASE("a scene with nothing in it has every default") {
   CHECK(scene.lights.empty());
 }
 
-TEST_CASE("memory is a number with a unit") {
+TEST_CASE("Memory is a number with a unit") {
   const auto bytes = [](const std::string& size) {
     return load("acceleration: {memory: " + size + "}").scene.acceleration.memory;
   };
@@ -115,7 +115,7 @@ TEST_CASE("memory is a number with a unit") {
   CHECK(bytes("99999999999999 TiB") == UINT64_MAX);
 }
 
-TEST_CASE("every material has its defaults") {
+TEST_CASE("Every material has its defaults") {
   CHECK(material<DiffuseMaterial>("{type: diffuse}").reflectance.value == Vec3(0.8F));
   CHECK(material<MirrorMaterial>("{type: mirror}").reflectance.value == Vec3(1));
   CHECK(material<GlassMaterial>("{type: glass}").ior == 1.5F);
@@ -127,7 +127,7 @@ TEST_CASE("every material has its defaults") {
   CHECK(load("materials: {m: {type: glass}}").scene.materials[0].opacity.value == 1);
 }
 
-TEST_CASE("every light has its defaults") {
+TEST_CASE("Every light has its defaults") {
   CHECK(light<PointLight>("{type: point}").intensity == Vec3(1));
   CHECK(light<SpotLight>("{type: spot}").angle == 30);
   CHECK(light<SpotLight>("{type: spot}").blend == 0.15);
@@ -138,7 +138,7 @@ TEST_CASE("every light has its defaults") {
   CHECK(light<EnvironmentLight>("{type: environment}").image == no_texture);
 }
 
-TEST_CASE("a Cornell box loads") {
+TEST_CASE("A Cornell box loads") {
   const Scene scene = load(R"(
 camera:   {type: perspective, position: [0, 1, 3.4], look_at: [0, 1, 0], fov: 40}
 film:     {width: 64, height: 64, filter: box, crop: [8, 16, 0, 64], channels: [albedo, depth]}
@@ -178,7 +178,7 @@ lights:
   CHECK(std::string(metal_presets()[2].name) == "Cu");
 }
 
-TEST_CASE("metals reflect as much as they do") {
+TEST_CASE("Metal presets have the reflectance of the metals") {
   // Normal incidence, channel by channel.
   const auto reflectance = [](std::size_t metal, int channel) {
     const double n = metal_presets()[metal].eta[channel], k = metal_presets()[metal].k[channel];
@@ -192,7 +192,7 @@ TEST_CASE("metals reflect as much as they do") {
   CHECK(reflectance(4, 1) == Approx(0.53).epsilon(0.1));    // iron
 }
 
-TEST_CASE("anchors, aliases and merge keys") {
+TEST_CASE("Anchors, aliases and merge keys work") {
   const Scene scene = load(R"(
 x-metal: &metal {type: metal, roughness: 0.3, tint: 0.5}
 x-rough: &rough {roughness: 0.9, ior: 1.7}
@@ -215,7 +215,7 @@ meshes:
   CHECK(scene.instances[2].material == 1);
 }
 
-TEST_CASE("transforms apply in the order written") {
+TEST_CASE("Transforms apply in the order written") {
   check_near(apply(transform("[{scale: 2}, {translate: [1, 0, 0]}]"), {1, 1, 1}), {3, 2, 2});
   check_near(apply(transform("[{translate: [1, 0, 0]}, {scale: [2, 1, 1]}]"), {1, 1, 1}),
              {4, 1, 1});
@@ -231,7 +231,7 @@ TEST_CASE("transforms apply in the order written") {
   CHECK(transform("{rotate: {axis: x, angle: -450}}")[1] == DVec3(0, 0, -1));
 }
 
-TEST_CASE("copies") {
+TEST_CASE("Copies are placed") {
   const auto instances = [](const std::string& keys) {
     return load("meshes: [{shape: box, transform: {scale: 2}, " + keys + "}]").scene.instances;
   };
@@ -255,7 +255,7 @@ TEST_CASE("copies") {
   CHECK(over.scene.meshes.size() == 2);
 }
 
-TEST_CASE("a mesh file without a material is gray, whatever materials the scene has") {
+TEST_CASE("A mesh file without a material is gray in every scene") {
   const TemporaryFolder folder;
   write_text(folder / "a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
   for (const char* text :
@@ -271,7 +271,7 @@ TEST_CASE("a mesh file without a material is gray, whatever materials the scene 
   }
 }
 
-TEST_CASE("textures stand for colors and numbers") {
+TEST_CASE("Textures replace colors and numbers") {
   const TemporaryFolder folder;
   write_text(folder / "picture.tga", test::tga(2, 2, "twelve bytes"));
   const Scene scene = load_scene(write_text(folder / "scene.yaml", R"(
@@ -305,7 +305,7 @@ materials:
   CHECK_THROWS_AS(load_scene(folder / "scene.yaml", options), SceneError);
 }
 
-TEST_CASE("influence areas") {
+TEST_CASE("Influence areas load") {
   const auto settings = [](const std::string& areas) {
     return load(
                "lights: [{name: bulb, type: point}, {name: sun, type: directional}]\n"
@@ -327,7 +327,7 @@ TEST_CASE("influence areas") {
   CHECK_FALSE(settings("[{type: point, light: bulb}]").derive);
 }
 
-TEST_CASE("overrides apply before reading") {
+TEST_CASE("Overrides apply before reading") {
   const char* text = R"(
 render: &r {samples: 4, max_depth: 3}
 x-other: *r
@@ -367,7 +367,7 @@ meshes: [{name: floor, shape: box}, {name: ball, shape: sphere, material: white}
         std::string::npos);
 }
 
-TEST_CASE("the hash tells scenes apart, and knows the files") {
+TEST_CASE("The hash covers the scene and its files") {
   const TemporaryFolder folder;
   write_text(folder / "a.tga", test::tga(1, 1, "abc"));
   const auto file =
@@ -381,7 +381,7 @@ TEST_CASE("the hash tells scenes apart, and knows the files") {
   CHECK(load("render: {seed: 1}").hash != load("render: {seed: 2}").hash);
 }
 
-TEST_CASE("the hash knows every block of a large file, whatever the threads") {
+TEST_CASE("The hash covers every block of a large file on any number of threads") {
   const TemporaryFolder folder;
   std::string obj = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
   while (obj.size() < 2'500'000) obj += "# a comment\n";
@@ -401,14 +401,14 @@ TEST_CASE("the hash knows every block of a large file, whatever the threads") {
   CHECK(hash_of(obj) == hash);
 }
 
-TEST_CASE("the hash is FNV-1a of 128 bits") {
+TEST_CASE("The hash is FNV-1a with 128 bits") {
   ContentHash empty, word;
   CHECK(empty.hex() == "6c62272e07bb014262b821756295c58d");
   word.add("foobar");
   CHECK(word.hex() == "343e1662793c64bf6f0d3597ba446f18");
 }
 
-TEST_CASE("edit distance") {
+TEST_CASE("The edit distance counts insertions, deletions, substitutions and swaps") {
   CHECK(edit_distance("", "abc") == 3);
   CHECK(edit_distance("abc", "abc") == 0);
   CHECK(edit_distance("radiance", "raidance") == 1);

@@ -6,7 +6,7 @@
 
 using namespace pah;
 
-TEST_CASE("mistakes in YAML") {
+TEST_CASE("Mistakes in YAML get helpful errors") {
   check_all({
       {"film:\n\twidth: 4\n",
        "scene.yaml:2:1: error: lines are indented by spaces here, not by tabs"},
@@ -39,7 +39,7 @@ TEST_CASE("mistakes in YAML") {
   });
 }
 
-TEST_CASE("mistakes in keys and values") {
+TEST_CASE("Mistakes in keys and values get helpful errors") {
   check_all({
       {"lights: [{position: [0, 1, 0]}]",
        "scene.yaml:1:10: error: missing key 'type' in light 1; available options are: point, spot, "
@@ -80,7 +80,7 @@ TEST_CASE("mistakes in keys and values") {
         std::get<MetalMaterial>(au.materials[0].model).k);
 }
 
-TEST_CASE("files that are no scenes") {
+TEST_CASE("Files that are not scenes are errors") {
   const TemporaryFolder folder;
   const auto error_of = [&](const char* name) {
     try {
@@ -95,7 +95,7 @@ TEST_CASE("files that are no scenes") {
   CHECK(error_of("old.pov") == "scenes of other programs cannot be read; a scene is a YAML file");
 }
 
-TEST_CASE("scenes that may not be meant so get warnings") {
+TEST_CASE("Suspicious scenes cause warnings") {
   const auto warnings = [](const std::string& text) {
     std::string result;
     for (const LocatedError& warning : load(text).warnings)

@@ -19,7 +19,7 @@ std::string errors_with(const std::string& bytes, const LoadOptions& options = {
 
 }  // namespace
 
-TEST_CASE("a picture that cannot be decoded is an error where it is first named") {
+TEST_CASE("A picture that cannot be decoded is an error where it is first named") {
   const std::string where = "scene.yaml:2:35: error: cannot read image 'a.png': ";
   const std::string whole = test::png(1, 1, false, test::one_gray_pixel);
   CHECK(errors_with(whole).empty());
@@ -29,7 +29,7 @@ TEST_CASE("a picture that cannot be decoded is an error where it is first named"
   CHECK(errors_with(test::tga(4, 4, "too few")).starts_with(where));
 }
 
-TEST_CASE("what is no number in a picture is counted") {
+TEST_CASE("Picture values that are not finite are counted") {
   const TemporaryFolder folder;
   // RGBE, not packed: 2 x 1 pixels, the second as large as can be.
   write_text(folder / "a.hdr", "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 2\n" +
@@ -46,7 +46,7 @@ TEST_CASE("what is no number in a picture is counted") {
   CHECK_THAT(format_warning(loaded.warnings[0]), contains_text("scene.yaml:1:35: warning: image"));
 }
 
-TEST_CASE("the limit is of a picture as floats") {
+TEST_CASE("The size limit applies to a picture as floats") {
   LoadOptions options;
   options.limits.image_bytes = 1000;
   const std::string texels(5 * 5 * 3, 'x');

@@ -172,7 +172,7 @@ std::vector<Json> border_values(const std::string& key, const Json& property) {
 
 }  // namespace
 
-TEST_CASE("schema and parser know the same keys, requirements and options") {
+TEST_CASE("Schema and parser know the same keys, requirements and options") {
   const std::vector<std::string> of_schema = lines_of(language_of(schema()["$defs"]));
   const std::vector<std::string> of_parser = lines_of(describe_language());
   CHECK(of_schema.size() > 200);
@@ -185,7 +185,7 @@ TEST_CASE("schema and parser know the same keys, requirements and options") {
   CHECK(only_parser == std::vector<std::string>());
 }
 
-TEST_CASE("a key, an option or a requirement too many is seen") {
+TEST_CASE("A surplus key, option or requirement in the schema is detected") {
   const auto before = lines_of(describe_language());
   Json changed = schema()["$defs"];
   SECTION("key") { changed["film"]["properties"]["depth"] = {{"type", "integer"}}; }
@@ -195,7 +195,7 @@ TEST_CASE("a key, an option or a requirement too many is seen") {
   CHECK(lines_of(language_of(changed)) != before);
 }
 
-TEST_CASE("schema and parser accept the same values") {
+TEST_CASE("Schema and parser accept the same values") {
   const JsonSchema validator(schema());
   const TemporaryFolder folder;
   write_text(folder / "picture.tga", test::tga(2, 2, "twelve bytes"));

@@ -2,7 +2,7 @@
 #include "catch.hpp"
 #include "scene_faults.hpp"
 
-TEST_CASE("bad values") {
+TEST_CASE("Bad values are errors") {
   check_all({
       {"camera: {fov: 180}",
        "scene.yaml:1:15: error: 'fov' of camera must be greater than 0 and less than 180, not 180"},
@@ -63,7 +63,7 @@ TEST_CASE("bad values") {
   });
 }
 
-TEST_CASE("bad materials and textures") {
+TEST_CASE("Bad materials and textures are errors") {
   check_all({
       {"materials: {white: {reflectance: 0.5}}",
        "scene.yaml:1:20: error: missing key 'type' in material 'white'; available options are: "
@@ -99,7 +99,7 @@ TEST_CASE("bad materials and textures") {
   });
 }
 
-TEST_CASE("bad meshes") {
+TEST_CASE("Bad meshes are errors") {
   check_all({
       {"meshes: [{name: floor}]",
        "scene.yaml:1:10: error: mesh 'floor' takes either 'shape' or 'file'"},
@@ -132,7 +132,7 @@ TEST_CASE("bad meshes") {
   });
 }
 
-TEST_CASE("bad transforms") {
+TEST_CASE("Bad transforms are errors") {
   const auto transform = [](const std::string& steps) {
     return errors_of("meshes: [{shape: box, transform: " + steps + "}]");
   };
@@ -165,7 +165,7 @@ TEST_CASE("bad transforms") {
   CHECK(transform("[{scale: 1.0e-30}]").empty());
 }
 
-TEST_CASE("bad copies") {
+TEST_CASE("Bad copies are errors") {
   check_all({
       {"meshes: [{shape: box, repeat: {type: line, count: 0, step: [1, 0, 0]}}]",
        "scene.yaml:1:51: error: 'count' of repeat of mesh 1 must be a whole number between 1 and "
@@ -188,7 +188,7 @@ TEST_CASE("bad copies") {
   });
 }
 
-TEST_CASE("bad lights and influence areas") {
+TEST_CASE("Bad lights and influence areas are errors") {
   check_all({
       {"lights: [{name: a, type: point, intensity: -1}]",
        "scene.yaml:1:44: error: 'intensity' of light 'a' must be at least 0, not -1"},

@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Throws unless the file has a name that is known, and is there.
+// Throws unless the file exists and has a known extension.
 void check_file(const fs::path& file) {
   const std::string extension = lower_extension(file);
   const auto& known = mesh_extensions();

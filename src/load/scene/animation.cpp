@@ -9,7 +9,7 @@ namespace {
 
 using Kind = YamlNode::Kind;
 
-// Copies what changes; what is shared by aliases stays shared.
+// Evaluates a tree at a frame. Copies only nodes that change; aliases stay shared.
 class Frame {
  public:
   Frame(ReadContext& context, const FrameTime& now) : context_(context), now_(now) {}

@@ -1,4 +1,4 @@
-// A scene as it is at one frame.
+// Evaluates an animated scene at one frame.
 #pragma once
 
 #include <optional>
@@ -8,12 +8,12 @@
 
 namespace pah {
 
-// The animation section; `frame` is the one of whoever loads, if any.
+// Reads the animation section. `frame`, if given, replaces the frame of the section.
 [[nodiscard]] FrameTime read_animation(ReadContext& context, const YamlNode* node,
                                        std::optional<int> frame);
 
-// The tree with every keyframes at `now` in their place, and every text that is an expression with
-// frame or time knowing its number. The same tree if there are none.
+// Returns the tree with keyframes replaced by their values at `now`, and with the numbers of
+// expressions in frame or time. Returns the same tree if nothing is animated.
 [[nodiscard]] YamlRef at_frame(ReadContext& context, const YamlRef& root, const FrameTime& now);
 
 }  // namespace pah

@@ -1,4 +1,4 @@
-// {keys: {0: 1, 24: [...]}, interpolation: smooth}: a value by frame.
+// Keyframes give a value for each frame: {keys: {0: 1, 24: [...]}, interpolation: smooth}.
 #pragma once
 
 #include <span>
@@ -9,7 +9,7 @@ namespace pah {
 
 enum class Interpolation {
   linear,
-  smooth,  // speeds change gradually, and are 0 at both ends; no value goes beyond its neighbors'
+  smooth,  // continuous speed that is 0 at both ends, without overshoot
 };
 
 struct Key {
@@ -17,13 +17,15 @@ struct Key {
   double value = 0;
 };
 
-// Before the first key its value, after the last one that one's. `keys` ascend, and there is one.
+// Interpolates between `keys`, of which there is at least one, in ascending order. Outside of them,
+// the value is that of the first or last key.
 [[nodiscard]] double interpolate(std::span<const Key> keys, double at, Interpolation interpolation);
 
-// Whether a map is one of keyframes and not of other things by name.
+// Returns whether a map holds keyframes: `keys` that include a number.
 [[nodiscard]] bool is_keyframes(const YamlNode& map);
 
-// The number or list of numbers at `frame`, or null and errors. Without a node it is described.
+// Returns the number or list of numbers at `frame`, or reports errors and returns null. Without a
+// node, describes keyframes for the language.
 [[nodiscard]] YamlRef read_keyframes(ReadContext& context, const YamlNode* node, double frame);
 
 }  // namespace pah

@@ -1,11 +1,11 @@
-// The language of scenes, told by the code that reads it.
+// The language of scenes, as described by the code that reads it.
 #pragma once
 
 #include "load/yaml/reader.hpp"
 
 namespace pah {
 
-// Every kind of map with its keys: "scene", "camera perspective", "mesh box", ...
+// Returns every kind of map with its keys: "scene", "camera perspective", "mesh box", ...
 [[nodiscard]] Language describe_language();
 
 }  // namespace pah

@@ -24,7 +24,7 @@ std::string read_text(const fs::path& file, std::uint64_t most_bytes) {
   if (status.type() == fs::file_type::directory) throw FileError(shown + "it is a directory");
   std::ifstream stream(file, std::ios::binary);
   if (!stream) throw FileError(shown + std::generic_category().message(errno));
-  // Not by its size: a pipe has none.
+  // Reads in blocks because a pipe has no size.
   std::string text;
   std::vector<char> buffer(1U << 16U);
   while (stream.read(buffer.data(), static_cast<std::streamsize>(buffer.size())) ||
@@ -39,14 +39,14 @@ std::string read_text(const fs::path& file, std::uint64_t most_bytes) {
   return text;
 }
 
-// The tree is at one frame already.
+// Only describes the section: load_scene() has evaluated the animation already.
 void describe_animation(SceneReading& reading, const YamlNode* /*node*/) {
   if (reading.context.language == nullptr) return;
   (void)read_animation(reading.context, nullptr, {});
   (void)read_keyframes(reading.context, nullptr, 0);
 }
 
-// The order matters: a section is read after those that it refers to.
+// The order matters: a section may refer to earlier ones.
 void read_sections(SceneReading& reading, MapReader& map) {
   using Section = std::pair<const char*, void (*)(SceneReading&, const YamlNode*)>;
   for (const auto& [key, read] : {Section{"camera", read_camera},
@@ -64,7 +64,7 @@ void read_sections(SceneReading& reading, MapReader& map) {
     });
 }
 
-// The tree with all overrides applied; errors are collected.
+// Returns the tree with all overrides applied, and collects their errors.
 YamlRef apply_overrides(YamlRef root, const LoadOptions& options, const YamlLimits& limits,
                         std::vector<YamlFault>& faults) {
   for (std::size_t i = 0; i < options.overrides.size(); ++i) {
@@ -144,14 +144,14 @@ Language describe_language() {
 
 namespace {
 
-// What a section holds, or null.
+// Returns the value of a section, or null.
 const YamlNode* section(const YamlNode& root, std::string_view key) {
   const YamlEntry* entry = root.kind == YamlNode::Kind::map ? root.find(key) : nullptr;
   return entry == nullptr || entry->value->kind == YamlNode::Kind::null ? nullptr
                                                                         : entry->value.get();
 }
 
-// Files that are no scenes of ours, by their names.
+// Rejects files that are not pahrender scenes by their extension.
 void refuse_other_formats(const fs::path& file) {
   const std::string extension = lower_extension(file);
   const auto& meshes = mesh_extensions();
@@ -169,7 +169,7 @@ void refuse_other_formats(const fs::path& file) {
   throw SceneError(std::move(errors));
 }
 
-// What is missing for a picture in which there is something to see.
+// Warns of gaps that leave nothing to see.
 void warn_of_gaps(const Scene& scene, ErrorCollector& errors) {
   if (scene.lights.empty()) errors.warn({}, "the scene has no light: the picture will be black");
   if (scene.instances.empty()) errors.warn({}, "the scene has no mesh: the picture will be empty");
@@ -202,7 +202,7 @@ LoadedScene load_scene(const fs::path& file, const LoadOptions& options) {
     } else {
       const FrameTime now = read_animation(context, section(*root, "animation"), options.frame);
       const YamlRef shown = at_frame(context, root, now);
-      // What is left in the place of numbers would be one error more.
+      // Faulty expressions would cause further errors, as they are not numbers.
       if (errors.size() > faults.size()) throw SceneError(errors.located());
       loaded.animated = shown != root;
       if (loaded.animated) files.hash().add_part(std::to_string(now.frame));

@@ -1,4 +1,4 @@
-// What keys of other programs are called here.
+// Translates keys of other programs.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace pah {
 
-// "; here it is 'intensity'" if one of `known`, the keys of a map, is what `key` is elsewhere.
+// Returns "; here it is 'intensity'" if `known`, the keys of a map, has a synonym of `key`, or "".
 [[nodiscard]] std::string synonym_hint(std::string_view key, const std::vector<std::string>& known);
 
 }  // namespace pah

@@ -1,5 +1,4 @@
-// Collects what is wrong with a scene, or will not be as its writer may expect, to be reported all
-// at once.
+// Collects all errors and warnings of a scene, so that they are reported at once.
 #pragma once
 
 #include <pah/base/errors.hpp>
@@ -24,7 +23,7 @@ class ErrorCollector {
   }
   [[nodiscard]] std::size_t size() const { return errors_.size(); }  // without warnings
 
-  // Sorted by place, each once; beyond a hundred, their number only.
+  // Returns the errors sorted by place, without duplicates. Beyond a hundred, only counts them.
   [[nodiscard]] std::vector<LocatedError> located() const { return located(errors_, "errors"); }
   [[nodiscard]] std::vector<LocatedError> located_warnings() const {
     return located(warnings_, "warnings");

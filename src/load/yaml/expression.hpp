@@ -20,13 +20,13 @@ struct FrameTime {
   double time = 0;  // seconds
 };
 
-// The value, which need not be finite; none if the text is no such expression.
+// Returns the value, which may be infinite or NaN, or nothing if the text is not an expression.
 [[nodiscard]] std::optional<double> evaluate(std::string_view text, const FrameTime& now);
 
-// For a text in the place of a number that is an expression but for one name: that name.
+// Returns the unknown name if the text would be an expression without it.
 [[nodiscard]] std::string unknown_name_in(std::string_view text);
 
-// All of them: variables and functions.
+// The names of all variables and functions.
 [[nodiscard]] const std::vector<std::string>& expression_names();
 
 }  // namespace pah

@@ -1,4 +1,4 @@
-// What a mistake most likely is: for messages that say how to mend it.
+// Guesses the cause of a mistake, so that messages can say how to fix it.
 #pragma once
 
 #include <string>
@@ -8,14 +8,14 @@
 
 namespace pah {
 
-// The mistake behind a fault that a parser has found in the text, at its own place if that can be
-// told; else the fault as it is.
+// Returns the likely cause of a parser's fault, at the place of the cause, or the fault itself if
+// no cause is known.
 [[nodiscard]] YamlFault likely_fault(std::string_view text, const YamlFault& fault);
 
-// "; a '#' after a blank begins a comment: ..." if the line has a color behind such a '#'.
+// Returns "; a '#' after a blank begins a comment: ..." if the line has such a color, or "".
 [[nodiscard]] std::string comment_hint(std::string_view line);
 
-// "; a blank is missing after the colon" if the word is a key and a value without one.
+// Returns "; a blank is missing after the colon" if the word looks like "key:value", or "".
 [[nodiscard]] std::string colon_hint(std::string_view word);
 
 }  // namespace pah

@@ -1,7 +1,7 @@
-// A YAML document as a tree of values that never change: aliases are shared, merge keys resolved.
+// A YAML document as a tree of immutable values. Aliases are shared, merge keys are resolved.
 //
-// yaml-cpp parses; its own Node is not used, because it hides where null values and keys stand,
-// knows no merge keys, and expands aliases without limit.
+// Uses yaml-cpp's parser but not its Node, which hides the places of null values and keys, ignores
+// merge keys, and expands aliases without limit.
 #pragma once
 
 #include <cstdint>
@@ -14,9 +14,9 @@
 
 namespace pah {
 
-// Where a value was written. Lines and columns count from 1, columns in bytes.
+// The place of a value in the text. Lines and columns count from 1, columns in bytes.
 struct Mark {
-  int override_index = -1;  // the override that it came from; -1 for the file
+  int override_index = -1;  // index of the override; -1 for the file
   int line = 0;
   int column = 0;
 
@@ -39,11 +39,11 @@ struct YamlNode {
   bool quoted = false;  // scalars: "42" is text, 42 a number
   Mark mark;
   std::string text;                // scalars
-  std::optional<double> number;    // of a scalar whose text is none: at some frame
+  std::optional<double> number;    // of an animated scalar, at the loaded frame
   std::vector<YamlRef> items;      // lists
-  std::vector<YamlEntry> entries;  // maps, in order, keys unique
-  std::uint64_t count = 1;         // nodes from here down, aliases expanded
-  int depth = 1;                   // levels from here down, aliases expanded
+  std::vector<YamlEntry> entries;  // maps, in order, with unique keys
+  std::uint64_t count = 1;         // nodes of this subtree, with aliases expanded
+  int depth = 1;                   // levels of this subtree, with aliases expanded
 
   [[nodiscard]] const YamlEntry* find(std::string_view key) const;
 };
@@ -53,7 +53,7 @@ struct YamlLimits {
   int nesting = 64;
 };
 
-// What ends parsing: bad syntax, a limit passed, an alias that holds itself.
+// An error that ends parsing: bad syntax, an exceeded limit, an alias that contains itself.
 class YamlError : public std::runtime_error {
  public:
   YamlError(Mark mark, const std::string& message) : std::runtime_error(message), mark_(mark) {}
@@ -63,19 +63,19 @@ class YamlError : public std::runtime_error {
   Mark mark_;
 };
 
-// A fault beside which parsing goes on.
+// A fault that does not end parsing.
 struct YamlFault {
   Mark mark;
   std::string message;
 };
 
-// The first and only document in `text`; a null node if there is none. Duplicate keys, tags and the
-// like go to `faults`. Marks carry `override_index`. Throws YamlError.
+// Returns the only document in `text`, or a null node if the text is empty. Adds duplicate keys,
+// tags and the like to `faults`. Marks carry `override_index`. Throws YamlError.
 [[nodiscard]] YamlRef parse_yaml(std::string_view text, const YamlLimits& limits,
                                  std::vector<YamlFault>& faults, int override_index = -1);
 
-// The tree with the value at `path` replaced: keys, list indices and names of list elements, joined
-// by dots. Keys that do not exist are made. Throws YamlError, at `mark`.
+// Returns the tree with the value at `path` replaced. A path is keys, list indices and names of
+// list elements, joined by dots. Creates missing keys. Throws YamlError at `mark`.
 [[nodiscard]] YamlRef replace_at(const YamlRef& root, std::string_view path, const YamlRef& value,
                                  const Mark& mark);
 

@@ -1,5 +1,4 @@
-// A file from its beginning to its end, a block at a time: lines of text, bytes, or one after the
-// other.
+// Reads a file from beginning to end in blocks, as lines of text, as bytes, or as a mix of both.
 #pragma once
 
 #include <cstddef>
@@ -12,21 +11,21 @@
 
 namespace pah {
 
-inline constexpr std::size_t longest_line = 1U << 24;  // in bytes, that makes sense
+inline constexpr std::size_t longest_line = 1U << 24;  // in bytes; no sensible line is longer
 
 class FileReader {
  public:
   // Throws MeshFileError if the file cannot be read or has more than `max_bytes`.
   FileReader(const std::filesystem::path& file, std::uint64_t max_bytes);
 
-  // The next line without its end, which is "\n" or "\r\n", or "\r" if the first line ends so;
-  // nothing at the end of the file. Valid until the next call. Throws MeshFileError if it is longer
-  // than any that makes sense.
+  // Returns the next line without its end, or nothing at the end of the file. Lines end with "\n"
+  // or "\r\n", or with "\r" if the first line does. Valid until the next call. Throws
+  // MeshFileError for a line longer than longest_line.
   [[nodiscard]] std::optional<std::string_view> line();
-  // That of the line read last, from 1.
+  // The number of the last line read, counted from 1.
   [[nodiscard]] int line_number() const { return line_number_; }
 
-  // The next `count` bytes, valid until the next call; null if fewer are left.
+  // Returns the next `count` bytes, or null if fewer are left. Valid until the next call.
   [[nodiscard]] const char* bytes(std::size_t count) {
     if (end_ - at_ < count && !fill(count)) return nullptr;
     const char* const begin = buffer_.data() + at_;
@@ -34,9 +33,10 @@ class FileReader {
     return begin;
   }
 
-  // The next `count` bytes, or all that are left; valid until the next call. They stay the next.
+  // Returns the next `count` bytes without consuming them, fewer at the end of the file. Valid
+  // until the next call.
   [[nodiscard]] std::string_view ahead(std::uint64_t count);
-  // Goes past bytes that were seen ahead.
+  // Consumes bytes that ahead() returned.
   void skip(std::size_t count) { at_ += count; }
 
   [[nodiscard]] char line_end() const { return line_end_; }
@@ -45,16 +45,16 @@ class FileReader {
   [[nodiscard]] std::uint64_t left() const { return unread_ + (end_ - at_); }
 
  private:
-  // Reads on until `count` bytes are there; false if the file ends before.
+  // Reads until the buffer holds `count` bytes; returns false if the file ends before.
   bool fill(std::size_t count);
   void find_line_end();
 
   std::ifstream stream_;
   std::uint64_t size_ = 0;
-  std::uint64_t unread_ = 0;  // bytes that are not in the buffer yet
+  std::uint64_t unread_ = 0;  // bytes after those in the buffer
   std::vector<char> buffer_;
-  std::size_t at_ = 0;   // of what comes next, in the buffer
-  std::size_t end_ = 0;  // of what the buffer holds
+  std::size_t at_ = 0;   // index of the next byte in the buffer
+  std::size_t end_ = 0;  // number of bytes in the buffer
   int line_number_ = 0;
   char line_end_ = '\n';
 };

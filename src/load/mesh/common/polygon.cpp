@@ -12,7 +12,7 @@ double cross(const DVec2& a, const DVec2& b, const DVec2& c) {
   return u.x * v.y - u.y * v.x;
 }
 
-// The corners seen along the polygon's normal, by Newell's formula, so that they run
+// Projects the corners along the polygon's normal (Newell's formula), so that they run
 // counterclockwise.
 std::vector<DVec2> flattened(std::span<const Vec3> corners) {
   DVec3 normal{0};
@@ -37,7 +37,7 @@ bool is_convex(const std::vector<DVec2>& points) {
   return true;
 }
 
-// Whether the corner `at` of what is left of the polygon can be cut off.
+// Returns whether corner `at` of the remaining polygon can be cut off.
 bool is_ear(const std::vector<DVec2>& points, const std::vector<std::uint32_t>& left,
             std::size_t at) {
   const std::size_t n = left.size();
@@ -64,7 +64,7 @@ void triangulate(std::span<const Vec3> corners, std::vector<UVec3>& triangles) {
   std::vector<std::uint32_t> left(corners.size());
   for (std::size_t i = 0; i < left.size(); ++i) left[i] = static_cast<std::uint32_t>(i);
   const std::vector<DVec2> points = flattened(corners);
-  // Going on where the last ear was keeps triangles from gathering in one corner.
+  // Continuing at the last ear avoids a fan of triangles at one corner.
   std::size_t at = 1;
   std::size_t misses = is_convex(points) ? left.size() : 0;
   while (left.size() > 3 && misses < left.size()) {
@@ -79,7 +79,7 @@ void triangulate(std::span<const Vec3> corners, std::vector<UVec3>& triangles) {
       ++misses;
     }
   }
-  // What is convex, or has no ears, is a fan.
+  // Convex polygons and those without ears become fans.
   for (std::size_t i = 2; i < left.size(); ++i)
     triangles.emplace_back(left[0], left[i - 1], left[i]);
 }

@@ -1,4 +1,4 @@
-// Polygons into triangles.
+// Triangulation of polygons.
 #pragma once
 
 #include <pah/geometry/vec.hpp>
@@ -7,9 +7,9 @@
 
 namespace pah {
 
-// Three corners or more, n - 2 triangles of their numbers into `triangles`, wound like the polygon.
-// Concave polygons are cut at their ears; what crosses itself or is not flat gives some
-// triangulation. Takes time with the square of the corners, if they are concave.
+// Cuts a polygon of n >= 3 corners into n - 2 triangles with its winding. `triangles` receives
+// indices of corners. Clips the ears of concave polygons, which takes O(n^2) time. Polygons that
+// cross themselves or are not flat get an arbitrary triangulation.
 void triangulate(std::span<const Vec3> corners, std::vector<UVec3>& triangles);
 
 }  // namespace pah

@@ -1,4 +1,4 @@
-// Polygons as OBJ, PLY and STL files have them, on their way to meshes of triangles.
+// The polygons of OBJ, PLY and STL files, from which triangle meshes are made.
 #pragma once
 
 #include <cstdint>
@@ -9,9 +9,9 @@
 namespace pah {
 
 inline constexpr std::uint32_t no_index = 0xFFFFFFFF;
-inline constexpr std::size_t max_polygon_corners = 10'000;  // triangulation may take their square
+inline constexpr std::size_t max_polygon_corners = 10'000;  // triangulation takes quadratic time
 
-// Numbers of a position, a texture coordinate and a normal; of the latter no_index for none.
+// Indices of a position, a texture coordinate and a normal; no_index if absent.
 struct PolygonVertex {
   std::uint32_t position;
   std::uint32_t uv;
@@ -23,14 +23,14 @@ struct PolygonMesh {
   std::vector<Vec2> uvs;
   std::vector<Vec3> normals;  // of any length
   std::vector<Vec3> colors;   // one per position, or none
-  // If there are none, vertex i has position, texture coordinate and normal i, and of those there
-  // are as many as positions, or none.
+  // If empty, vertex i has position, texture coordinate and normal i. Then `uvs` and `normals` have
+  // the size of `positions` or are empty.
   std::vector<PolygonVertex> vertices;
   std::vector<std::uint32_t> corners;     // vertices of all faces, one face after the other
   std::vector<std::uint16_t> face_sizes;  // in corners: 3 to max_polygon_corners
   std::vector<UVec3> triangles;           // all faces, instead of corners and face_sizes
 
-  // Faces from `first_face` on, to the next run, are of `material`. None: all are of material 0.
+  // Faces from `first_face` to the next run have `material`. Without runs, all have material 0.
   struct Run {
     std::size_t first_face;
     std::uint32_t material;
@@ -43,15 +43,15 @@ struct PolygonMesh {
   [[nodiscard]] std::size_t face_size(std::size_t face) const {
     return triangles.empty() ? face_sizes[face] : 3;
   }
-  // Those of `corners` or `triangles`.
+  // Returns `corners`, or the corners of `triangles`.
   [[nodiscard]] std::span<std::uint32_t> all_corners() {
     if (triangles.empty()) return corners;
     return {&triangles.front().x, 3 * triangles.size()};
   }
 };
 
-// Triangles, with normals if `options` asks for the file's, as one mesh for each material that has
-// faces and a part for each mesh; as one of material 0 with `options.merged`.
+// Adds one triangle mesh and one part to `out` for each material that has faces, or a single mesh
+// of material 0 with `options.merged`. Keeps the file's normals if `options` asks for them.
 void make_meshes(PolygonMesh polygons, const MeshFileOptions& options, MeshFile& out);
 
 }  // namespace pah

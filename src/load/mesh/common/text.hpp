@@ -1,4 +1,4 @@
-// Words and numbers of mesh files that are text.
+// Words and numbers of mesh files in text formats.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@
 namespace pah {
 
 [[nodiscard]] inline bool is_blank(char c) {
-  // One comparison for most characters.
+  // Most characters need only the first comparison.
   return static_cast<unsigned char>(c) <= ' ' && (c == ' ' || c == '\t' || c == '\r');
 }
 
@@ -23,9 +23,9 @@ class Words {
     while (at_ < line_.size() && !is_blank(line_[at_])) ++at_;
     return line_.substr(begin, at_ - begin);
   }
-  // All that is left, without blanks around it.
+  // Returns the remaining text without blanks around it.
   [[nodiscard]] std::string_view rest() const;
-  // From 1. The end of the line for an empty word.
+  // Counts from 1. An empty word from next() is at the end of the line.
   [[nodiscard]] int column_of(std::string_view word) const;
 
  private:
@@ -33,14 +33,14 @@ class Words {
   std::size_t at_ = 0;
 };
 
-// Whether the word is a decimal number that a float can hold, and the float nearest to it. What is
-// too small for one is 0.
+// Parses a decimal number and rounds it to the nearest float; tiny numbers become 0. Returns false
+// if the word is not a number or too large.
 [[nodiscard]] bool read_float(std::string_view word, float& value);
 
-// The line for an error message: not too long, and without control characters.
+// Shortens a line for an error message and replaces control characters.
 [[nodiscard]] std::string excerpt_of(std::string_view line);
 
-// A byte-order mark may stand before the first line of a text.
+// Removes the byte order mark that the first line of a text may have.
 [[nodiscard]] std::string_view without_byte_order_mark(std::string_view line);
 
 }  // namespace pah

@@ -1,4 +1,4 @@
-// Vertices of triangles that arrive corner by corner, merged where they are equal to the last bit.
+// Merges vertices that are equal to the last bit.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +8,7 @@
 
 namespace pah {
 
-// What vertices have beside positions: all of them or none.
+// The data that all vertices of a mesh have besides positions.
 struct VertexParts {
   bool normals = false;
   bool uvs = false;
@@ -22,8 +22,8 @@ struct VertexValues {
   Vec3 color{1};
 };
 
-// For each of `count` vertices, the first that it is equal to, which may be itself. `values` is
-// called from several threads.
+// Returns, for each of `count` vertices, the first vertex equal to it, which may be itself. Several
+// threads call `values`.
 [[nodiscard]] std::vector<std::uint32_t> first_equal_vertices(
     std::uint32_t count, const std::function<VertexValues(std::uint32_t)>& values);
 
@@ -32,9 +32,9 @@ class MeshBuilder {
   MeshBuilder(const VertexParts& parts, std::size_t expected_triangles,
               std::size_t expected_vertices = 0);
 
-  // The index of the vertex. What the mesh has none of is ignored.
+  // Returns the index of the vertex, or of an equal one. Ignores values that the mesh lacks.
   std::uint32_t add_vertex(const VertexValues& values);
-  // The index of the vertex, which none before is equal to.
+  // Returns the index of the vertex, which must differ from all before.
   std::uint32_t add_new_vertex(const VertexValues& values);
   void add_triangle(const UVec3& triangle) { mesh_.triangles.push_back(triangle); }
 
@@ -53,9 +53,9 @@ class MeshBuilder {
   std::vector<std::uint32_t> table_;  // open addressing over a power of 2; vertex + 1, or 0
 };
 
-// Replaces the normals by the mean of those of the triangles around each position, weighted by
-// their angle there, whatever seams the texture coordinates have (Thuermer, Wuethrich, "Computing
-// Vertex Normals from Polygonal Facets", JGT 1998).
+// Replaces the normals by the mean of the normals of the triangles around each position, weighted
+// by their angles there (Thuermer, Wuethrich, "Computing Vertex Normals from Polygonal Facets", JGT
+// 1998). Seams of texture coordinates make no difference.
 void smooth_normals(Mesh& mesh);
 
 }  // namespace pah

@@ -1,4 +1,4 @@
-// The numbers of a glTF file: buffers, views of them, accessors.
+// The buffers, buffer views and accessors of a glTF file.
 #pragma once
 
 #include <string>
@@ -11,19 +11,19 @@ namespace pah {
 
 class GltfBuffers {
  public:
-  // Reads all buffers. Accessors of more than `max_count` elements are refused. The document has to
-  // outlive this. Throws MeshFileError, as do all that follow.
+  // Reads all buffers. Rejects accessors of more than `max_count` elements. The document must
+  // outlive this. Every function throws MeshFileError.
   GltfBuffers(const GltfDocument& document, std::uint64_t max_count);
 
   [[nodiscard]] std::string_view view(std::size_t index) const;
 
-  // Elements of `components` numbers, one element after the other; what an accessor without data or
-  // a sparse one leaves open is 0. `name` is for errors.
+  // Returns elements of `components` numbers, one element after another. Elements without data are
+  // 0, as in sparse accessors. `name` is for errors.
   [[nodiscard]] std::vector<float> floats(std::size_t accessor, std::size_t components,
                                           const std::string& name) const;
-  // How many numbers an element has: "VEC3" are 3.
+  // Returns the numbers in an element: 3 for "VEC3".
   [[nodiscard]] std::size_t components(std::size_t accessor) const;
-  // Whole numbers.
+  // Returns elements of one whole number.
   [[nodiscard]] std::vector<std::uint32_t> indices(std::size_t accessor) const;
 
  private:

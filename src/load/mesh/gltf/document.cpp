@@ -47,7 +47,7 @@ int line_of(std::string_view text, std::size_t at) {
   return line;
 }
 
-// Of base64, padding and all; nothing if it is not that.
+// Returns the decoded bytes of base64 with padding, or nothing if the text is not base64.
 std::optional<std::string> decode_base64(std::string_view text) {
   std::string bytes;
   bytes.reserve(text.size() / 4 * 3);
@@ -79,7 +79,7 @@ std::optional<std::string> decode_base64(std::string_view text) {
   return bytes;
 }
 
-// "%20" is a space, and so on.
+// Decodes percent-encoded characters, such as "%20" for a space.
 std::string decode_uri(std::string_view uri) {
   const auto digit = [](char c) {
     if (c >= '0' && c <= '9') return c - '0';
@@ -99,7 +99,7 @@ std::string decode_uri(std::string_view uri) {
   return text;
 }
 
-// The file at once.
+// Reads a whole file.
 std::string read_bytes(const fs::path& file, std::uint64_t max_bytes) {
   std::error_code error;
   if (!fs::is_regular_file(file, error))

@@ -6,8 +6,8 @@
 
 namespace pah {
 
-// Adds the file's meshes and parts to `out`; of a file that is not merged, its materials, textures,
-// cameras and lights too. What cannot be shown is named in a warning. Throws MeshFileError.
+// Adds the file's meshes and parts to `out`, and unless `options.merged` also its materials,
+// textures, cameras and lights. Warns of unsupported features. Throws MeshFileError.
 void import_gltf(const std::filesystem::path& file, const MeshFileOptions& options, MeshFile& out);
 
 }  // namespace pah

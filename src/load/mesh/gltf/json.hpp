@@ -1,5 +1,5 @@
-// Values of a glTF document, checked as they are taken. What is not of the kind that glTF asks for
-// throws nlohmann::json::exception or MeshFileError.
+// Reads values of a glTF document. A value of the wrong type throws nlohmann::json::exception or
+// MeshFileError.
 #pragma once
 
 #include <cstdint>
@@ -11,17 +11,17 @@ namespace pah {
 
 using Json = nlohmann::json;
 
-// The list under a key; empty if there is none.
+// Returns the list under a key; empty if the key is absent.
 [[nodiscard]] const Json& list(const Json& object, const char* key);
-// The object under a key; empty if there is none.
+// Returns the object under a key; empty if the key is absent.
 [[nodiscard]] const Json& child(const Json& object, const char* key);
 
-// A count or an offset; `otherwise` where there is none.
-[[nodiscard]] std::uint64_t number(const Json& object, const char* key, std::uint64_t otherwise);
+// Returns a count or an offset.
+[[nodiscard]] std::uint64_t number(const Json& object, const char* key, std::uint64_t fallback);
 
-// An index in a list of `size`.
+// Returns an index in a list of `size`.
 [[nodiscard]] std::size_t index_of(const Json& object, const char* key, std::size_t size);
 
-[[nodiscard]] DVec3 vec(const Json& object, const char* key, const DVec3& otherwise);
+[[nodiscard]] DVec3 vec(const Json& object, const char* key, const DVec3& fallback);
 
 }  // namespace pah

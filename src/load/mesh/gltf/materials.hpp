@@ -9,8 +9,8 @@
 
 namespace pah {
 
-// Materials, their emission and textures into `out`, and behind them that of primitives without
-// one. Names of what is left out go into `left_out`. Throws MeshFileError.
+// Reads materials with their emission and textures into `out`, and then adds the default material.
+// Adds the names of ignored features to `left_out`. Throws MeshFileError.
 void read_gltf_materials(const GltfDocument& document, const GltfBuffers& buffers, MeshFile& out,
                          std::vector<std::string>& left_out);
 

@@ -7,17 +7,18 @@
 namespace pah {
 
 struct GltfPrimitive {
-  std::size_t material;  // as the file counts; its number of materials for the default one
-  PolygonMesh polygons;  // none if it is points or lines
+  std::size_t material;  // index in the file; the number of materials means the default one
+  PolygonMesh polygons;  // empty for points and lines
 };
 
-// The primitives of one mesh. Names of what is left out go into `left_out`. Throws MeshFileError.
+// Returns the primitives of a mesh. Adds the names of ignored features to `left_out`. Throws
+// MeshFileError.
 [[nodiscard]] std::vector<GltfPrimitive> read_gltf_mesh(const GltfDocument& document,
                                                         const GltfBuffers& buffers,
                                                         std::size_t mesh,
                                                         std::vector<std::string>& left_out);
 
-// Adds `from`, transformed and, where the transform mirrors, turned over.
+// Adds `from`, transformed. A mirroring transform flips the winding.
 void append(const PolygonMesh& from, const glm::dmat4x3& world_from_object, PolygonMesh& out);
 
 }  // namespace pah

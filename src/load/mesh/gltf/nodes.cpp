@@ -34,7 +34,7 @@ glm::dmat4x3 parent_from_node(const Json& node) {
           vec(node, "translation", DVec3(0))};
 }
 
-// A camera and a light look along -z.
+// Cameras and lights point along -z.
 DVec3 forward_of(const glm::dmat4x3& world_from_node) { return -world_from_node[2]; }
 
 class NodeReader {
@@ -47,11 +47,11 @@ class NodeReader {
         places_(places),
         out_(out) {}
 
-  // The nodes have been checked to be trees, and not to be deep.
+  // Earlier checks ensure that nodes form trees of limited depth.
   void read(std::size_t index, const glm::dmat4x3& world_from_parent) {
     const Json& node = nodes_.at(index);
     const glm::dmat4x3 world = compose(world_from_parent, parent_from_node(node));
-    // Any entry that is not finite makes the determinant so, or the translation is it.
+    // An entry that is not finite makes the determinant or the translation so.
     const DVec3 place = world[3];
     if (!std::isfinite(glm::determinant(DMat3(world))) ||
         !std::isfinite(place.x + place.y + place.z) || glm::length(place) > largest_coordinate)
@@ -66,8 +66,8 @@ class NodeReader {
   }
 
  private:
-  static std::string name_of(const Json& node, const Json& thing, const char* otherwise) {
-    return node.value("name", thing.value("name", std::string(otherwise)));
+  static std::string name_of(const Json& node, const Json& item, const char* fallback) {
+    return node.value("name", item.value("name", std::string(fallback)));
   }
 
   void read_camera(const Json& node, const Json& source, const glm::dmat4x3& world) {
@@ -119,7 +119,7 @@ class NodeReader {
   }
 
   static constexpr const char* punctual = "KHR_lights_punctual";
-  static constexpr double largest_coordinate = 1e30;  // squares of it are finite
+  static constexpr double largest_coordinate = 1e30;  // its square is finite
 
   const Json& nodes_;
   const Json& cameras_;
@@ -129,8 +129,8 @@ class NodeReader {
   MeshFile& out_;
 };
 
-// Every node hangs below one other at most, so following children ends; and not too deep. Returns
-// those below none.
+// Checks that each node has at most one parent, so that recursion ends, and that trees are not too
+// deep. Returns the roots.
 std::vector<std::size_t> check_nodes(const Json& nodes) {
   constexpr int max_depth = 256;
   std::vector<std::size_t> parent(nodes.size(), nodes.size());
@@ -160,7 +160,7 @@ std::vector<std::size_t> check_nodes(const Json& nodes) {
 std::vector<GltfPlace> read_gltf_nodes(const Json& document, MeshFile& out) {
   const Json& nodes = list(document, "nodes");
   std::vector<std::size_t> roots = check_nodes(nodes);
-  // Without a scene that is to be shown at first, the first is; without any, everything.
+  // Without a default scene, shows the first; without any scene, shows all nodes.
   const Json& scenes = list(document, "scenes");
   if (!scenes.empty()) {
     const bool chosen = document.contains("scene");

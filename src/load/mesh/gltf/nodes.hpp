@@ -1,4 +1,4 @@
-// The nodes of a glTF file: where its meshes, cameras and lights are.
+// The nodes of a glTF file, which place its meshes, cameras and lights.
 #pragma once
 
 #include <pah/load/mesh_file.hpp>
@@ -13,8 +13,9 @@ struct GltfPlace {
   glm::dmat4x3 world_from_object;
 };
 
-// Where the document's scene has its meshes; its cameras and lights go into `out`. glTF's lights
-// are photometric (candela, lux): 683 lm/W turn them into watts. Throws MeshFileError.
+// Returns the places of the meshes in the document's scene, and adds its cameras and lights to
+// `out`. glTF's lights are photometric (candela, lux); 683 lm/W converts them to watts. Throws
+// MeshFileError.
 [[nodiscard]] std::vector<GltfPlace> read_gltf_nodes(const Json& document, MeshFile& out);
 
 }  // namespace pah

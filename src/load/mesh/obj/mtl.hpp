@@ -1,4 +1,4 @@
-// Wavefront MTL: the materials of OBJ files, in our terms.
+// Wavefront MTL: the materials of OBJ files.
 #pragma once
 
 #include <filesystem>
@@ -9,9 +9,10 @@
 
 namespace pah {
 
-// The materials that `obj` uses into `out`, in its order: from its libraries, gray where none has
-// them, with a warning. Libraries and images have to lie in or under `options.folder`, or that of
-// the file if it is empty. Throws MeshFileError, which names the library and the line.
+// Reads the materials that `obj` uses from its libraries into `out`, in its order. A material in no
+// library is gray and causes a warning. Libraries and images must lie in or under `options.folder`,
+// or the file's folder if that is empty. Throws MeshFileError, which names the library and the
+// line.
 void read_mtl_materials(const ObjFile& obj, const std::filesystem::path& file,
                         const MeshFileOptions& options, MeshFile& out);
 

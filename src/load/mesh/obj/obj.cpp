@@ -13,10 +13,11 @@
 namespace pah {
 namespace {
 
-// The texture coordinate or normal of every corner, stored only if it is not the corner's position.
+// The index of the texture coordinate or normal of each corner. Stored only if any differs from the
+// index of the corner's position.
 class CornerNumbers {
  public:
-  // `positions` are those of the corners before the piece.
+  // `positions` belong to the corners before the piece.
   void add(const ObjPiece& piece, std::size_t element, std::span<const std::uint32_t> positions) {
     const std::vector<std::uint32_t>& numbers = piece.corners[element];
     if (numbers.empty()) return;
@@ -63,7 +64,7 @@ class ObjReader {
   }
 
   ObjFile read() {
-    // Enough for each thread to find one when another takes longer.
+    // Several pieces for each thread balance the load.
     const std::size_t at_once = 4UL * parallel_threads();
     for (auto texts = text_.next(at_once, 0); !texts.empty();
          texts = text_.next(at_once, place_.lines))
@@ -101,8 +102,8 @@ class ObjReader {
     for (std::size_t i = 0; i < texts.size(); ++i) {
       Slot& slot = slots_[i];
       slot.place.triangles = place_.triangles;
-      // What is told is the first error of the file, which may be too many triangles before that of
-      // the piece. They are counted only now.
+      // Reports the first error of the file. Reads the piece again now that the number of triangles
+      // before it is known, because their limit may be passed before the piece's own error.
       if (slot.failed || place_.triangles + slot.piece.triangles > max_triangles_)
         slot.piece.read(texts[i], slot.place, max_triangles_);
       add(slot.piece);
@@ -111,7 +112,7 @@ class ObjReader {
   }
 
   void find_places(std::span<const std::string_view> texts) {
-    // Not the first line of the file, where a byte-order mark may be.
+    // Only the first line of the file may have a byte order mark.
     const ObjPlace elsewhere{.lines = 1, .line_end = place_.line_end};
     parallel_for(texts.size(), 1, [&](std::size_t i) {
       slots_[i].place = place_behind(texts[i], i == 0 ? place_ : elsewhere);
@@ -161,7 +162,7 @@ class ObjReader {
     append<std::uint32_t>(piece.corners[0], polygons_.corners);
   }
 
-  // With room for as many again from each piece to come: growing takes longer than reading.
+  // Reserves memory for all remaining pieces: growing would take longer than reading.
   template <class T>
   void append(std::span<const T> from, std::vector<T>& to) const {
     if (to.capacity() < to.size() + from.size())
@@ -187,18 +188,18 @@ class ObjReader {
     }
   }
 
-  // One vertex for each combination that corners use.
+  // Makes one vertex for each combination of indices that corners use.
   void make_vertices() {
     const auto& [uvs, normals] = numbers_;
     if (!uvs.own() && !normals.own()) {
-      // Every position is a vertex.
+      // Each position is a vertex.
       const std::size_t count = polygons_.positions.size();
       polygons_.uvs.resize(uvs.none() ? 0 : count);
       polygons_.normals.resize(normals.none() ? 0 : count);
       return;
     }
-    // Those of a position are a chain; one that is too long to search gets doubles, which do no
-    // harm.
+    // The vertices of a position form a chain. Chains that are too long to search get duplicates,
+    // which do no harm.
     constexpr int most_links = 16;
     std::vector<std::uint32_t> first(polygons_.positions.size(), no_index);
     std::vector<std::uint32_t> next;
@@ -223,9 +224,9 @@ class ObjReader {
   }
 
   StatementText text_;
-  std::uint64_t pieces_left_;  // about
+  std::uint64_t pieces_left_;  // approximate
   std::uint64_t max_triangles_;
-  ObjPlace place_;  // where the text that is read next begins
+  ObjPlace place_;  // of the next text
   std::vector<Slot> slots_;
   PolygonMesh polygons_;
   std::array<CornerNumbers, 2> numbers_;  // of texture coordinates and normals

@@ -9,12 +9,12 @@
 namespace pah {
 namespace {
 
-// Not drawn, or without a meaning for a picture.
+// Keywords without effect on the picture, ignored without a warning.
 constexpr std::string_view silent[] = {
     "o",      "g",      "s",     "l",        "p",        "vp",         "mg",        "lod",
     "usemap", "maplib", "bevel", "c_interp", "d_interp", "shadow_obj", "trace_obj", "end"};
 
-// As std::from_chars(), but faster for short numbers without a sign, as most are.
+// Like std::from_chars(), but faster for short numbers without a sign, the most frequent kind.
 std::from_chars_result read_whole(const char* at, const char* last, std::int64_t& number) {
   constexpr std::ptrdiff_t most_digits = 9;
   const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
@@ -37,7 +37,7 @@ ObjPlace place_behind(std::string_view text, const ObjPlace& place) {
                          static_cast<std::size_t>(ObjStatement::position);
     if (element < behind.counts.size()) ++behind.counts[element];
   };
-  // Without a backslash every line is a statement.
+  // Without a backslash, each line is a statement.
   if (place.lines > 0 && text.find('\\') == std::string_view::npos) {
     while (!text.empty()) {
       const std::size_t size = std::min(text.find(place.line_end), text.size());
@@ -203,7 +203,7 @@ void ObjPiece::corner(const Words& words, std::string_view word) {
   ++count_;
 }
 
-// Numbers count from 1, or back from the last.
+// Indices count from 1, or back from the last element.
 std::int64_t ObjPiece::unusual_number(std::size_t element, std::int64_t number, int column) {
   const std::int64_t count = counts_[element];
   if (number < 0 && number < -count)

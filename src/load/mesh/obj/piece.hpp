@@ -1,4 +1,4 @@
-// A piece of an OBJ file, from one statement to another, read on its own.
+// A piece of an OBJ file, a range of whole statements that is read on its own.
 #pragma once
 
 #include <array>
@@ -13,25 +13,25 @@
 
 namespace pah {
 
-// Positions, texture coordinates and normals: where there are three of something, in this order.
+// Arrays of three hold positions, texture coordinates and normals in this order.
 inline constexpr std::array<const char*, 3> obj_elements{"vertex position", "texture coordinate",
                                                          "normal"};
 using ObjCounts = std::array<std::int64_t, 3>;
 
-// Where a piece begins.
+// The place where a piece begins: counts of everything before it.
 struct ObjPlace {
-  ObjCounts counts{};  // of elements before it, as are the others
+  ObjCounts counts{};  // of elements
   std::uint64_t triangles = 0;
   int lines = 0;
   char line_end = '\n';
 };
 
-// Where the piece behind `text` begins, but for triangles, if there is no error in it.
+// Returns the place after `text`, assuming that `text` has no errors. Does not count triangles.
 [[nodiscard]] ObjPlace place_behind(std::string_view text, const ObjPlace& place);
 
 class ObjPiece {
  public:
-  // The highest number of an element that a face used before it was there.
+  // The highest index of an element that a face used before the element was defined.
   struct Early {
     std::int64_t number = 0;
     int line = 0;
@@ -39,7 +39,7 @@ class ObjPiece {
     std::string excerpt;
   };
   struct MaterialUse {
-    std::size_t first_face;  // of the piece
+    std::size_t first_face;  // in the piece
     std::string_view name;   // in the text
   };
   struct Ignored {
@@ -47,7 +47,7 @@ class ObjPiece {
     int line;
   };
 
-  // Throws MeshFileError, also if the file so far has more than `most_triangles`.
+  // Throws MeshFileError, also if the file has more than `most_triangles` up to here.
   void read(std::string_view text, const ObjPlace& place, std::uint64_t most_triangles);
 
   std::vector<Vec3> positions;
@@ -55,7 +55,7 @@ class ObjPiece {
   std::vector<Vec3> normals;
   std::vector<std::uint16_t> face_sizes;
   std::uint64_t triangles = 0;
-  // The element that each corner uses, from 0, or no_index.
+  // The index of the element that each corner uses, from 0, or no_index.
   std::array<std::vector<std::uint32_t>, 3> corners;
   std::array<Early, 3> early;
   std::vector<MaterialUse> material_uses;
@@ -73,7 +73,7 @@ class ObjPiece {
   void number(const Words& words, std::string_view word);
   void corner(const Words& words, std::string_view word);
   [[noreturn]] void bad_corner(const Words& words, std::string_view word) const;
-  // The number from 1 that one below 1 or above the count so far means.
+  // Converts an index below 1, or above the count so far, to one counted from 1.
   [[nodiscard]] std::int64_t unusual_number(std::size_t element, std::int64_t number, int column);
 
   ObjCounts counts_{};  // so far
@@ -82,11 +82,11 @@ class ObjPiece {
   ObjStatement statement_ = ObjStatement::other;
   std::size_t count_ = 0;  // numbers or corners of the statement so far
   float numbers_[3] = {};
-  std::string_view text_;  // the line at hand
+  std::string_view text_;  // the current line
   int line_ = 0;
 };
 
-// Adds to `known` those that are not among them, as long as there are few.
+// Adds a new keyword to `known`, up to a few.
 void add_ignored(std::vector<ObjPiece::Ignored>& known, std::string_view keyword, int line);
 
 }  // namespace pah

@@ -1,4 +1,4 @@
-// A text file in pieces that can be read each on its own.
+// A text file in pieces that can be read independently.
 #pragma once
 
 #include <span>
@@ -9,20 +9,20 @@
 
 namespace pah {
 
-// Pieces end behind lines whose last character is no backslash, so that no statement is cut.
+// Pieces end after a line without a backslash at its end, so that no statement is cut.
 class StatementText {
  public:
   // Pieces have about `piece_bytes`.
   StatementText(const std::filesystem::path& file, std::uint64_t max_bytes, std::size_t piece_bytes)
       : file_(file, max_bytes), piece_bytes_(piece_bytes) {}
 
-  // The next pieces of the file, `most` or less; none at its end. Valid until the next call. Throws
-  // MeshFileError if a statement is longer than any that makes sense, which is then in the line
-  // behind the pieces before.
+  // Returns at most `most` next pieces of the file; none at its end. Valid until the next call.
+  // Throws MeshFileError if a statement is longer than longest_line; the statement is then on the
+  // line after the previous pieces.
   [[nodiscard]] std::span<const std::string_view> next(std::size_t most, int lines_before);
 
   [[nodiscard]] char line_end() const { return file_.line_end(); }
-  // Bytes behind the pieces.
+  // Bytes after the pieces.
   [[nodiscard]] std::uint64_t left() const { return file_.left(); }
 
  private:

@@ -1,4 +1,4 @@
-// The header of a PLY file: what the data behind it are.
+// The header of a PLY file, which describes the data after it.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +19,7 @@ struct PlyProperty {
   std::string name;
   PlyType type = PlyType::f32;
   bool is_list = false;
-  PlyType count_type = PlyType::u8;  // of lists: a whole number
+  PlyType count_type = PlyType::u8;  // of a list's length; an integer type
 };
 
 struct PlyElement {
@@ -33,8 +33,8 @@ struct PlyHeader {
   std::vector<PlyElement> elements;
 };
 
-// Reads to the line behind the header. Throws MeshFileError; also if the elements cannot fit the
-// file.
+// Reads up to the end of the header. Throws MeshFileError, also if the file is too short for its
+// elements.
 [[nodiscard]] PlyHeader read_ply_header(FileReader& file);
 
 }  // namespace pah

@@ -1,4 +1,4 @@
-// The files that a scene names: where they are, that they can be read, and what they hash to.
+// Finds, checks and hashes the files that a scene names.
 #pragma once
 
 #include <cstdint>
@@ -14,13 +14,13 @@
 
 namespace pah {
 
-// FNV-1a, 128 bits (Fowler, Noll, Vo; RFC 9923): tells scenes apart, not proof against malice.
+// FNV-1a with 128 bits (Fowler, Noll, Vo; RFC 9923). Distinguishes scenes, but not against attacks.
 class ContentHash {
  public:
   void add(std::string_view bytes);
-  // As add(), but eight bytes in a step, which is as much faster and gives another hash.
+  // Like add(), but takes eight bytes in a step: about eight times as fast, with another result.
   void add_words(std::string_view bytes);
-  // With its length, so that neighbors do not run together.
+  // Adds the length too, so that adjacent parts stay distinct.
   void add_part(std::string_view bytes);
   [[nodiscard]] std::string hex() const;
 
@@ -35,22 +35,21 @@ class SceneFiles {
  public:
   using OnFile = std::function<void(const std::filesystem::path&)>;
 
-  // `on_file` is called with the whole path of each file before it is looked at.
-  // `loaded` may be null.
+  // Calls `on_file` with the full path of each file before accessing it. `loaded` may be null.
   explicit SceneFiles(std::filesystem::path folder, OnFile on_file = {},
                       LoadedFiles::Impl* loaded = nullptr)
       : folder_(std::move(folder)), on_file_(std::move(on_file)), loaded_(loaded) {}
 
-  // The whole path of the regular file that `node` names, its bytes added to the hash when it is
-  // first seen; nothing, and an error, if it cannot be read or is larger than `most_bytes`.
+  // Returns the full path of the regular file that `node` names, and adds its content to the hash
+  // at the first use. Reports an error if it cannot be read or has more than `most_bytes`.
   std::optional<std::filesystem::path> open(ReadContext& context, const YamlNode& node,
                                             const ValueName& name, std::uint64_t most_bytes);
-  // As open(), of a file that another one names; `node` is where that one is named.
+  // Like open(), for a file that another file names. The scene names the other file at `mark`.
   std::optional<std::filesystem::path> open(ReadContext& context, const Mark& mark,
                                             const std::filesystem::path& file,
                                             std::uint64_t most_bytes);
 
-  // Tells whoever watches files of one that is read for another.
+  // Calls `on_file` for a file that another file names.
   void announce(const std::filesystem::path& file) const {
     if (on_file_) on_file_(file);
   }
@@ -61,14 +60,14 @@ class SceneFiles {
 
  private:
   std::filesystem::path folder_;
-  // The hash of what is in the file; none if it cannot be read to its end.
+  // Returns the hash of the file's content, or nothing if it cannot be read completely.
   [[nodiscard]] std::optional<std::string> content_hash(const std::filesystem::path& file,
                                                         std::uintmax_t size) const;
 
   OnFile on_file_;
   LoadedFiles::Impl* loaded_;
   ContentHash hash_;
-  std::unordered_map<std::string, bool> seen_;  // by whole path: readable
+  std::unordered_map<std::string, bool> seen_;  // full path: is it readable?
 };
 
 }  // namespace pah

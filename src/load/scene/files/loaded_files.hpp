@@ -1,4 +1,4 @@
-// What LoadedFiles keeps.
+// The implementation of LoadedFiles.
 #pragma once
 
 #include <pah/load/loaded_files.hpp>
@@ -14,7 +14,7 @@ namespace pah {
 
 using StampedFiles = std::vector<std::pair<std::filesystem::path, FileStamp>>;
 
-// Values by name, each good as long as the files that it comes from stay as they are.
+// Values by name. A value is valid until one of the files that it comes from changes.
 template <class T>
 class KeptValues {
  public:
@@ -24,7 +24,7 @@ class KeptValues {
     bool used = true;  // since the last drop_unused()
   };
 
-  // Null if there is none, or a file has changed.
+  // Returns null if there is no value or one of its files has changed.
   const Entry* find(const std::string& key) {
     const auto found = entries_.find(key);
     if (found == entries_.end()) return nullptr;
@@ -51,8 +51,8 @@ struct ReadMeshFile {
 };
 
 struct LoadedFiles::Impl {
-  KeptValues<ReadMeshFile> meshes;           // by path and how they are read
-  KeptValues<std::string> hashes;            // of contents, by path
+  KeptValues<ReadMeshFile> meshes;           // by path and options
+  KeptValues<std::string> hashes;            // of content, by path
   KeptValues<std::uint64_t> picture_checks;  // numbers of unusable values, by path
 
   void drop_unused() {

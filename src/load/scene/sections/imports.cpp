@@ -35,11 +35,11 @@ std::string_view bytes_of(const std::vector<T>& values) {
   return {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T)};
 }
 
-// Of what a mesh file gets from the files that it names in turn.
+// Hashes the content that a mesh file gets from the files that it names.
 std::string content_hash(const std::filesystem::path& path, MeshFile& file) {
   ContentHash hash;
   const std::string extension = lower_extension(path);
-  // Others hold their geometry themselves.
+  // Other formats contain their geometry themselves.
   const bool names_geometry = extension == ".gltf" || extension == ".glb";
   for (const Mesh& mesh : file.meshes) {
     if (!names_geometry) break;
@@ -56,7 +56,7 @@ std::string content_hash(const std::filesystem::path& path, MeshFile& file) {
   return hash.hex();
 }
 
-// From the load before, if nothing that it was read from has changed.
+// Takes the file from the previous load if none of its files has changed, or reads it.
 ReadMeshFile read_or_take(SceneReading& reading, const std::filesystem::path& path,
                           const std::string& key, MeshFileOptions options) {
   LoadedFiles::Impl* const loaded = reading.files.loaded();
@@ -76,7 +76,7 @@ ReadMeshFile read_or_take(SceneReading& reading, const std::filesystem::path& pa
   return read;
 }
 
-// Reads the file into the scene; the ids in it become the scene's.
+// Adds the file's content to the scene, and converts its ids to the scene's.
 ImportedFile add_file(SceneReading& reading, MeshFile file, const Mark& mark) {
   Scene& scene = reading.scene;
   const auto first_mesh = static_cast<MeshId>(scene.meshes.size());
@@ -84,7 +84,7 @@ ImportedFile add_file(SceneReading& reading, MeshFile file, const Mark& mark) {
   const auto first_texture = static_cast<TextureId>(scene.textures.size());
   for (Texture& texture : file.textures) {
     if (const auto* image = std::get_if<ImageTexture>(&texture)) {
-      // What is inside of a file has been opened with it.
+      // An image inside the file needs no opening.
       const bool is_open =
           image->bytes != nullptr ||
           reading.files.open(reading.context, mark, image->file, reading.limits.image_bytes);
@@ -152,7 +152,7 @@ Light scaled(Light light, double factor) {
   return light;
 }
 
-// The one that is asked for by name, or the first.
+// Returns the camera called `name`, or the first camera if `name` is empty.
 const NamedCamera* chosen_camera(SceneReading& reading, const ImportedFile& file,
                                  const std::string& name, const Mark& mark) {
   std::vector<std::string> names;
@@ -195,7 +195,7 @@ const ImportedFile* import_file(SceneReading& reading, const YamlNode& node, con
   options.file_bytes = reading.limits.mesh_file_bytes;
   options.triangles =
       reading.limits.triangles - std::min(reading.triangles, reading.limits.triangles);
-  // A mesh of the scene's own may share what lies anywhere in the scene.
+  // A mesh file in the scene's folder may name any file in that folder.
   if (lies_in(*path, reading.files.folder())) options.folder = reading.files.folder();
   try {
     ReadMeshFile read = read_or_take(reading, *path, key, options);

@@ -9,7 +9,7 @@ void read_radiometry(MapReader& map, std::string_view key, Vec3& value) {
     read_color(map.context(), *node, map.name_of(key), value);
 }
 
-// False if there is none.
+// Returns false if the key is absent.
 bool read_direction(MapReader& map, DVec3& direction) {
   const bool given = map.optional("direction", direction);
   if (given && direction == DVec3(0))
@@ -86,7 +86,7 @@ void read_light(SceneReading& reading, const YamlNode* node, const std::string& 
         if (named) reading.lights.add(reading.context, name, id, map.mark_of("name"));
         if (type != 3) return;
         GeometryUse use{name, read_material_name(reading, map), id};
-        // What emits reflects nothing unless it says so.
+        // Without a material, an area light reflects nothing.
         if (!use.material && !map.recording()) use.material = unnamed_material(reading, 0);
         read_geometry(reading, map, use);
       });

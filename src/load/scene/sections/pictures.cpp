@@ -1,4 +1,4 @@
-// The pictures that a scene names, read once before anything is rendered.
+// Checks the pictures that a scene names before anything is rendered.
 #include "base/parallel_for.hpp"
 #include "image/image_header.hpp"
 #include "load/scene/sections/reading.hpp"
@@ -11,7 +11,7 @@ void check_pictures(SceneReading& reading) {
     const NamedPicture& named;
     std::string fault{};
     std::uint64_t unusable = 0;
-    FileStamp stamp{};  // before the check
+    FileStamp stamp{};  // taken before the check
   };
   LoadedFiles::Impl* const loaded = reading.files.loaded();
   std::vector<Check> checks;
@@ -19,7 +19,7 @@ void check_pictures(SceneReading& reading) {
   std::vector<std::size_t> todo;
   for (const auto& [file, named] : reading.pictures) {
     checks.push_back({file, named});
-    // What is inside of another file has no stamp of its own.
+    // A picture inside another file has no stamp of its own.
     const bool keeps = loaded != nullptr && named.bytes == nullptr;
     if (const auto* kept = keeps ? loaded->picture_checks.find(file.string()) : nullptr)
       checks.back().unusable = kept->value;

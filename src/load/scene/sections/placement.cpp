@@ -1,4 +1,4 @@
-// Where the copies of a mesh stand.
+// The placement of a mesh's copies.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -12,7 +12,7 @@ namespace {
 using Transforms = std::vector<glm::dmat4x3>;
 constexpr std::uint32_t most_copies = 0xFFFFFFFFU;
 
-// Every transform of `outer` after every one of `inner`, if that is not too many.
+// Returns each transform of `outer` composed with each of `inner`, unless they exceed the limit.
 Transforms combine(SceneReading& reading, const Mark& mark, const Transforms& outer,
                    const Transforms& inner) {
   if (outer.size() * inner.size() > reading.limits.instances) {
@@ -37,7 +37,7 @@ bool check_count(SceneReading& reading, const Mark& mark, std::uint64_t count) {
   return false;
 }
 
-// The pattern in its own frame, then its own transform.
+// Applies the pattern's own transform to the copies.
 Transforms moved(ReadContext& context, MapReader& map, Transforms copies) {
   map.nested("transform", [&](const YamlNode* node) {
     const glm::dmat4x3 outer(read_transform(context, node, map.title()));

@@ -5,8 +5,8 @@
 namespace pah {
 namespace {
 
-constexpr int most_round = 65536;   // segments of what is round in one direction
-constexpr int most_patched = 8192;  // and in two
+constexpr int most_round = 65536;   // segments of shapes that are round in one direction
+constexpr int most_patched = 8192;  // and in two directions
 constexpr std::uint64_t most_heights = 1ULL << 31U;
 
 void read_keys(MapReader& map, RectangleShape& shape) {
@@ -108,7 +108,7 @@ bool read_keys(SceneReading& reading, MapReader& map, HeightFieldShape& shape) {
                           : read_height_rows(map, *heights, shape);
 }
 
-// At least as many as make_mesh() makes.
+// An upper bound on the triangles that make_mesh() makes.
 struct TriangleBound {
   std::uint64_t operator()(const RectangleShape&) const { return 2; }
   std::uint64_t operator()(const BoxShape&) const { return 12; }

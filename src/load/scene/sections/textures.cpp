@@ -1,4 +1,4 @@
-// The textures section, and colors and scalars that a texture may stand for.
+// The textures section, and colors and scalars that a texture may replace.
 #include <algorithm>
 
 #include "image/srgb.hpp"
@@ -28,7 +28,7 @@ TextureId shared_image(SceneReading& reading, const ImageTexture& image) {
   return entry->second;
 }
 
-// The texture as numbers: an image of unstated color space is then linear.
+// Returns the texture for use as numbers: without a declared color space, an image is then linear.
 TextureId as_numbers(SceneReading& reading, TextureId id) {
   const auto* image = std::get_if<ImageTexture>(&reading.scene.textures[id]);
   if (image == nullptr || image->color_space != ColorSpace::automatic) return id;
@@ -41,7 +41,7 @@ TextureId as_numbers(SceneReading& reading, TextureId id) {
   return entry->second;
 }
 
-// The keys `texture` and `image` of a map, one of which must be there.
+// Reads the keys `texture` and `image` of a map, which must have exactly one of them.
 TextureId read_source(SceneReading& reading, MapReader& map, bool numbers) {
   const YamlNode* texture = map.find("texture");
   const YamlNode* image = map.find("image");
@@ -59,7 +59,7 @@ TextureId read_source(SceneReading& reading, MapReader& map, bool numbers) {
   return numbers ? as_numbers(reading, *id) : *id;
 }
 
-// A number for both or one for each.
+// Reads one number for both, or one for each.
 bool read_pair(MapReader& map, std::string_view key, DVec2& value) {
   const YamlNode* node = map.find(key);
   if (node == nullptr) return false;
@@ -87,8 +87,7 @@ std::optional<Texture> read_image_texture(SceneReading& reading, MapReader& map)
   return texture;
 }
 
-// "#rrggbb" to a linear color; false if it is not one.
-// Whether it holds whole numbers up to 255 where 1 is the most.
+// Returns whether a color with the maximum 1 looks like bytes: whole numbers of up to three digits.
 bool is_of_bytes(const YamlNode& node, const NumberRange& range) {
   if (range.max != 1) return false;
   return std::all_of(node.items.begin(), node.items.end(), [](const YamlRef& item) {
@@ -97,7 +96,7 @@ bool is_of_bytes(const YamlNode& node, const NumberRange& range) {
   });
 }
 
-// A file's name alone is no picture.
+// Explains that a file's name alone does not make a texture.
 std::string picture_hint(const YamlNode& node) {
   const bool is_file =
       node.kind == Kind::scalar && std::filesystem::path(node.text).extension().string().size() > 3;
@@ -221,7 +220,7 @@ void read_textures(SceneReading& reading, const YamlNode* node) {
   if (!is_map(reading.context, node, "textures")) return;
   for (const YamlEntry& entry : node->entries) {
     const auto texture = read_one(entry.value.get(), "texture '" + entry.key + "'");
-    // A texture with errors keeps its name, so that its users are not reported too.
+    // A texture with errors keeps its name, so that its uses cause no further errors.
     const TextureId id = texture ? add_texture(reading.scene, *texture) : no_texture;
     reading.textures.add(reading.context, entry.key, id, entry.mark);
   }
