@@ -63,7 +63,7 @@ TEST_CASE("Tasks may run tasks, and waiting ends after the last", "[threads]") {
   CHECK(done == std::vector<int>(done.size(), 1));
 }
 
-// Hidden: it is for the thread sanitizer to find.
+// Hidden: it fails only under the thread sanitizer.
 TEST_CASE("A planted data race", "[.race]") {
   std::size_t last = 0;
   // Each task waits for the other, so that two threads run. Relaxed atomics order nothing.

@@ -68,7 +68,7 @@ TEST_CASE("Pictures survive a round trip in every format") {
                          : extension == ".hdr"             ? 0.0079
                                                            : 0.05;
     CHECK(largest_difference(back, image) < bound);
-    // Nothing but the pictures is left behind.
+    // Only the picture is left in the folder.
     std::filesystem::remove(file);
     CHECK(std::filesystem::is_empty(folder.path()));
   }
@@ -111,7 +111,7 @@ TEST_CASE("High dynamic range is kept") {
   const TemporaryFolder folder;
   const Image image = ramp(4, 4, 1e4F);
   WriteOptions options;
-  options.exposure = 3;  // not for these
+  options.exposure = 3;  // ignored by these formats
   write_image(folder / "a.hdr", picture(image), options);
   CHECK(largest_difference(read_image(folder / "a.hdr"), image) < 1e4 / 256);
   write_image(folder / "a.exr", picture(image), options);
@@ -124,7 +124,7 @@ TEST_CASE("High dynamic range is kept") {
   options.full_float = true;
   write_image(folder / "b.exr", picture(image), options);
   CHECK(largest_difference(read_image(folder / "b.exr"), image) == 0);
-  // The largest half is no infinity.
+  // Large values become the largest half, not infinity.
   write_image(folder / "c.exr", picture(Image{1, 1, {Vec3(1e6F, -1e6F, 1)}}));
   CHECK(read_image(folder / "c.exr").pixels[0] == Vec3(65504, -65504, 1));
 }
@@ -160,7 +160,7 @@ TEST_CASE("EXR holds layers and metadata") {
   REQUIRE(in->read_image(0, 0, y, y + 1, OIIO::TypeFloat, values));
   CHECK(values[1] == 0.125F);
   CHECK(read_image(folder / "a.exr").pixels == image.pixels);
-  // Where there is no room for layers there is the picture.
+  // Formats without layers hold only the picture.
   write_image(folder / "a.png", {{"", {"R", "G", "B"}, image}, {"depth", {"Z"}, depth}}, options);
   CHECK(OIIO::ImageInput::open((folder / "a.png").string())->spec().nchannels == 3);
 }
@@ -233,7 +233,7 @@ TEST_CASE("Files that cannot be read are reported") {
     write_image(file, picture(ramp(64, 64)));
     CHECK(read(file).empty());
     CHECK(has(read(file, 64 * 64), "64 x 64 pixels"));
-    // Cut short: an error, or for lenient decoders the part that is there; never a crash.
+    // A truncated file is an error, or a partial picture from lenient decoders, but never a crash.
     const auto size = std::filesystem::file_size(file);
     for (const auto part : {size / 8, size / 2, size - 1}) {
       std::filesystem::resize_file(file, part);

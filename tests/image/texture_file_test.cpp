@@ -1,4 +1,4 @@
-// Bytes of every kind under the names of pictures.
+// Picture files with valid, damaged and hostile bytes.
 #include "image/picture/open_picture.hpp"
 
 #include <cmath>
@@ -17,7 +17,7 @@ using namespace std::string_literals;
 
 namespace {
 
-// What is wrong with such a file, or "".
+// Returns the error of a file with these bytes, or "".
 std::string fault_of(const std::string& bytes, const std::string& name = "a.png",
                      std::uint64_t max_bytes = most_picture_bytes) {
   const TemporaryFolder folder;
@@ -30,7 +30,7 @@ std::string fault_of(const std::string& bytes, const std::string& name = "a.png"
   }
 }
 
-// As OpenImageIO writes it, with `attribute` set.
+// Returns a picture that OpenImageIO wrote with `attribute` set.
 std::string written(const std::string& extension, const std::string& attribute = "",
                     const std::string& value = "") {
   const TemporaryFolder folder;
@@ -89,7 +89,7 @@ TEST_CASE("Sizes are checked before anything is decoded") {
 TEST_CASE("Files that end early are refused") {
   for (const char* extension : {".png", ".jpg", ".exr", ".hdr", ".tif", ".bmp", ".tga", ".webp"}) {
     const std::string whole = written(extension);
-    // What follows a TGA file's texels is not read.
+    // Data after a TGA file's texels are not read.
     const std::size_t end = extension == ".tga"s ? 18 + 8 * 6 * 3 : whole.size();
     for (const std::size_t size : {end / 2, end * 3 / 4}) {
       CAPTURE(extension, size);

@@ -27,7 +27,7 @@ namespace {
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
-// Images of this run; removed with it.
+// Images of a test, which are removed at its end.
 class ImageFolder {
  public:
   ImageFolder()
@@ -70,7 +70,7 @@ TextureStore store_of(ImageTexture texture, const TextureOptions& options = {}) 
   return TextureStore(textures, options);
 }
 
-// The message of the error that the texture causes.
+// Returns the message of the error that the texture causes.
 std::string error_of(const ImageTexture& texture, const TextureOptions& options = {}) {
   std::string message = "none";
   try {
@@ -138,7 +138,7 @@ TEST_CASE("Integer color images are sRGB unless declared otherwise, or used as d
 TEST_CASE("A footprint averages light, not code values") {
   const ImageFolder folder;
   const auto dots = [](int x, int y, int) { return static_cast<float>((x + y) % 2); };
-  // Scanlines, tiles and stored levels each go their own way through the decoder.
+  // Scanlines, tiles and stored levels take different paths through the decoder.
   const fs::path scanlines = folder.write("a.png", 256, 256, 3, OIIO::TypeUInt8, dots);
   const fs::path tiles = folder.write("b.tif", 256, 256, 3, OIIO::TypeUInt8, dots, 64);
   for (const fs::path& file : {scanlines, tiles}) {
@@ -206,7 +206,7 @@ TEST_CASE("Coordinates are scaled, repeat or clamp, and may be anything") {
   CHECK(clamp.sample(0, {-3, p.y}).r == Approx(50));
   CHECK(clamp.sample(0, {1e30F, p.y}).r == Approx(57));
   CHECK(scaled.sample(0, (p - Vec2{0.25F, -1}) / Vec2{2, 0.5F}).r == Approx(52));
-  // Across the seam a repeated image blends its ends.
+  // A repeated image blends both ends at the seam.
   CHECK(repeat.sample(0, {0, p.y}).r == Approx(53.5));
   for (const TextureStore* store : {&repeat, &clamp}) {
     for (const float u : {infinity, -infinity, std::nanf(""), 3e38F, -1e20F, 1e-45F}) {
@@ -236,10 +236,10 @@ TEST_CASE("Checkerboards are sharp or averaged") {
   CHECK(at(-0.1F, 0.1F) == 0);
   CHECK(at(-0.1F, -0.1F) == 1);
   CHECK(at(0.25F, 0.125F, 0.01F) == Approx(1));
-  // On an edge half of the footprint is a; over many squares half of everything is.
+  // Half of a footprint on an edge has color a, and so has half of one over many squares.
   CHECK(at(0.5F, 0.125F, 0.01F) == Approx(0.5).margin(1e-6));
   CHECK(at(0.3F, 0.7F, 100) == Approx(0.5).margin(0.01));
-  // The average is that of points.
+  // The result equals the mean of point samples.
   double sum = 0;
   constexpr int n = 400;
   for (int i = 0; i < n; ++i)
@@ -328,7 +328,7 @@ TEST_CASE("Damaged files are refused or black, never fatal") {
     for (int trial = 0; trial < 60; ++trial) {
       std::string damaged = bytes;
       for (int k = 0; k < 1 + trial % 8; ++k) {
-        // Headers are where the harm is.
+        // Damage in headers is the most dangerous.
         const std::size_t range =
             k % 2 == 0 ? std::min<std::size_t>(200, bytes.size()) : bytes.size();
         damaged[rng() % range] = static_cast<char>(rng());
@@ -356,7 +356,7 @@ TEST_CASE("Look-ups give the same from any number of threads, whatever fits the 
   const auto noise = [](int x, int y, int c) {
     return static_cast<float>((x * 7919 + y * 104729 + c * 31) % 256) / 255.0F;
   };
-  // 1024^2 texels of 6 bytes in half: six times the small cache.
+  // 1024^2 texels of 6 bytes as half: six times the size of the small cache.
   const fs::path file = folder.write("a.tif", 1024, 1024, 3, OIIO::TypeUInt8, noise, 64);
   TextureOptions small;
   small.cache_megabytes = 1;
@@ -379,7 +379,7 @@ TEST_CASE("A picture inside of another file is read in any order") {
   const ImageFolder folder;
   for (const char* name : {"a.png", "a.jpg"}) {
     CAPTURE(name);
-    // Each quarter has a brightness of its own, and is more than a tile.
+    // Each quarter has its own brightness and is larger than a tile.
     const fs::path file = folder.write(name, 300, 300, 3, OIIO::TypeUInt8, [](int x, int y, int) {
       return static_cast<float>(1 + (x >= 150 ? 1 : 0) + (y >= 150 ? 2 : 0)) / 5;
     });
@@ -390,7 +390,7 @@ TEST_CASE("A picture inside of another file is read in any order") {
     image.bytes = std::make_shared<const std::string>(std::istreambuf_iterator<char>(stream),
                                                       std::istreambuf_iterator<char>());
     const TextureStore store(std::vector<Texture>{image});
-    // From the bottom, which is stored last, to the top.
+    // Reads from the bottom, which is stored last, to the top.
     CHECK(store.sample(0, {0.25F, 0.25F}).x == Approx(0.6).margin(0.02));
     CHECK(store.sample(0, {0.75F, 0.25F}).x == Approx(0.8).margin(0.02));
     CHECK(store.sample(0, {0.25F, 0.75F}).x == Approx(0.2).margin(0.02));

@@ -18,7 +18,7 @@ TEST_CASE("glTF: a square is read from text and from bytes") {
     CHECK(mesh.positions.size() == 4);
     CHECK(area_of(mesh) == Approx(1));
     for (const Vec3& n : mesh.normals) CHECK(n == Vec3(0, 0, 1));
-    // glTF's v grows downwards, ours upwards.
+    // glTF's v points down, pahrender's up.
     for (std::size_t i = 0; i < 4; ++i) CHECK(mesh.uvs[i] == Vec2(mesh.positions[i]));
 
     const MeshFile whole = read_mesh_file(file);
@@ -50,7 +50,7 @@ TEST_CASE("glTF: nodes transform and repeat") {
     const Vec3 a = mesh.positions[k.x];
     CHECK(a.x >= 9);
     CHECK(a.z == (t < 2 ? 0 : 5));
-    // The mirrored one is turned over and keeps its face to +z.
+    // The winding of the mirrored square is flipped, so that it still faces +z.
     CHECK(glm::cross(mesh.positions[k.y] - a, mesh.positions[k.z] - a).z > 0);
   }
   const MeshFile whole = read_mesh_file(file);
@@ -72,7 +72,7 @@ TEST_CASE("glTF: cameras and lights are read") {
     {"type": "perspective", "perspective": {"yfov": 0.5, "aspectRatio": 2, "znear": 0.1}},
     {"type": "orthographic",
      "orthographic": {"xmag": 4, "ymag": 2, "znear": 0.1, "zfar": 10}}])");
-  // Half a turn about y: what looked along -z looks along +z.
+  // After half a turn about y, the camera points along +z instead of -z.
   json["nodes"] = Json::parse(R"([
     {"mesh": 0},
     {"camera": 0, "name": "eye", "translation": [1, 2, 3], "rotation": [0, 1, 0, 0]},
@@ -170,8 +170,7 @@ TEST_CASE("glTF: embedded images are read") {
 TEST_CASE("glTF: accessors may be sparse, without data or normalized") {
   const GltfFiles files;
   Json json = square();
-  // All positions are 0 but for two: the second and third index, 1 and 2, become (1, 0, 0) and
-  // (1, 1, 0).
+  // All positions are 0 except those of indices 1 and 2, which become (1, 0, 0) and (1, 1, 0).
   json["accessors"][0].erase("bufferView");
   json["accessors"][0]["sparse"] = Json::parse(R"({"count": 2,
       "indices": {"bufferView": 1, "byteOffset": 2, "componentType": 5123},

@@ -16,7 +16,7 @@ void append(std::string& bytes, const T& value) {
   bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
 }
 
-// Positions, normals and texture coordinates of a square in the xy plane, then indices.
+// Returns positions, normals and texture coordinates of a square in the xy plane, then indices.
 inline std::string square_bytes() {
   std::string bytes;
   for (const Vec3& p : {Vec3{0, 0, 0}, Vec3{1, 0, 0}, Vec3{1, 1, 0}, Vec3{0, 1, 0}})
@@ -59,7 +59,7 @@ class GltfFiles {
   [[nodiscard]] std::filesystem::path write(const Json& json) const {
     return write("square.gltf", json.dump(1));
   }
-  // As binary glTF, the buffer inside.
+  // Writes binary glTF with the buffer inside.
   [[nodiscard]] std::filesystem::path write_binary(Json json) const {
     json["buffers"][0].erase("uri");
     std::string text = json.dump();

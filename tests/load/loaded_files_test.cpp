@@ -1,4 +1,4 @@
-// What is kept of a scene's files for the next load.
+// LoadedFiles keeps a scene's files for the next load.
 #include <pah/load/loaded_files.hpp>
 #include <set>
 
@@ -15,7 +15,8 @@ namespace fs = std::filesystem;
 const std::string triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
 const std::string other_triangle = "v 0 0 0\nv 2 0 0\nv 0 1 0\nf 1 2 3\n";
 
-// With another text of the same size and the old time: none the wiser.
+// Replaces the text by one of the same size and restores the old time, so that the change is not
+// noticed.
 void replace_unnoticed(const fs::path& file, const std::string& text) {
   REQUIRE(fs::file_size(file) == text.size());
   const fs::file_time_type time = fs::last_write_time(file);

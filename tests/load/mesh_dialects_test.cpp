@@ -1,4 +1,4 @@
-// Mesh files as all sorts of programs write them: each is the same square, or it is an error.
+// Mesh files in the dialects of various programs: each holds the same square, or is an error.
 #include <algorithm>
 #include <array>
 #include <cstring>
@@ -18,7 +18,7 @@ using namespace pah;
 
 namespace {
 
-// The corners of a mesh's triangles, in no order, each triangle from its smallest corner on.
+// Returns a mesh's triangles as a set of corners. Each triangle starts at its smallest corner.
 std::vector<std::array<float, 9>> soup_of(const Mesh& mesh) {
   std::vector<std::array<float, 9>> soup;
   for (const UVec3& t : mesh.triangles) {
@@ -61,12 +61,12 @@ void check_square(const Mesh& mesh) {
   std::sort(other.begin(), other.end());
   const auto soup = soup_of(mesh);
   CHECK((soup == expected || soup == other));
-  // Seams, where some corners have texture coordinates or normals and some have none.
+  // Seams exist where only some corners have texture coordinates or normals.
   const bool seams = !mesh.normals.empty() || !mesh.uvs.empty();
   CHECK((mesh.positions.size() == 4 || (seams && mesh.positions.size() == 6)));
 }
 
-// Positions as properties of `type`, corners as a list of `index` behind a `count`.
+// Writes positions as properties of `type`, and corners as a list of `index` after a `count`.
 template <class Real, class Count, class Index>
 std::string binary_ply(const std::string& real, const std::string& count, const std::string& index,
                        bool big_endian, const std::string& line_end = "\n") {
@@ -171,7 +171,7 @@ TEST_CASE("PLY dialects load") {
            head + "element camera 1\nproperty list int float eye\nproperty short n\n" + vertex +
                "element edge 2\nproperty int a\nproperty int b\n" + face +
                "property uchar flags\nend_header\n3 1 2 3 7\n" + v + "0 1\n1 2\n4 0 1 2 3 9\n",
-           // What is left out may be no number.
+           // Ignored properties need not hold numbers.
            head + vertex + "property float quality\n" + face +
                "end_header\n0.5 0 0 nan\n1.25 0 0 inf\n1.25 1 -2 x\n0.5 1 -2 0\n4 0 1 2 3\n",
            head + vertex + strip + "end_header\n" + v + "4 0 1 3 2\n",
@@ -248,7 +248,7 @@ TEST_CASE("STL dialects load") {
   std::string returns = "solid a\n" + facets + "endsolid a\n";
   for (std::size_t at = 0; (at = returns.find('\n', at)) != std::string::npos; at += 2)
     returns.replace(at, 1, "\r\n");
-  // Binary files whose header begins like a text's.
+  // Binary files may have a header that begins like a text file.
   std::string binary = "solid binary after all";
   binary.resize(80, ' ');
   append(binary, std::uint32_t{2});

@@ -32,7 +32,7 @@ bool has(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
 }
 
-// A closed tetrahedron, corners counted from 1.
+// A closed tetrahedron, with corners counted from 1.
 const std::string tetrahedron_positions = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n";
 const std::string tetrahedron_faces = "f 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
 
@@ -130,7 +130,7 @@ TEST_CASE("OBJ polygons, seams, normals, negative indices and joined lines load"
   MeshFileOptions options;
   options.normals = MeshNormals::flat;
   CHECK(read_mesh(file, options).normals.empty());
-  // Smooth normals do not mind the seam of the texture coordinates.
+  // Seams of texture coordinates do not affect smooth normals.
   options.normals = MeshNormals::smooth;
   const Mesh smooth = read_mesh(file, options);
   for (std::size_t i = 0; i < smooth.positions.size(); ++i)
@@ -140,7 +140,7 @@ TEST_CASE("OBJ polygons, seams, normals, negative indices and joined lines load"
 
 TEST_CASE("Polygons are cut into triangles of the same area and winding") {
   const TemporaryFolder folder;
-  // A comb: many reflex corners, seen from each of three sides, in both windings.
+  // A comb has many reflex corners. It is seen from three sides and in both windings.
   std::vector<DVec2> comb{{0, 0}};
   for (int i = 0; i < 20; ++i) {
     comb.emplace_back(i + 0.25, 0);
@@ -214,7 +214,7 @@ TEST_CASE("OBJ errors have lines and columns") {
   check(p + "f 1 2 \\\n 3 \\\n 7\n", "uses number 7", 7, 2);
   check(p, "no faces", 0, 0);
   check("", "no faces", 0, 0);
-  // Vertices may come after the faces that use them, and numbers in any form.
+  // Vertices may come after the faces that use them, and numbers may have any form.
   CHECK(error_of(write(folder, "a.obj", "f 1 2 3\nv 0 0 +.5\nv 1e0 0 1e-99\nv 0 1. 0\n")).what() ==
         std::string());
 }
@@ -276,7 +276,7 @@ TEST_CASE("Only known formats are read, by their names") {
             "unknown mesh format '.fbx'; available are .obj, .ply"));
   CHECK(has(error_of(folder / "none.obj").what(), "it does not exist"));
   CHECK(has(error_of(folder.path()).what(), "unknown mesh format"));
-  // Not what the name says: no other importer is tried.
+  // No other importer is tried for a file with the wrong extension.
   CHECK_FALSE(error_of(write(folder, "a.stl", ascii_ply())).what() == std::string());
   CHECK_FALSE(error_of(write(folder, "b.obj", binary_stl())).what() == std::string());
 }

@@ -12,7 +12,7 @@ using namespace pah;
 
 namespace {
 
-// All that reading an OBJ file gives, or its error.
+// Returns the whole result of reading an OBJ file as text, or its error.
 struct Outcome {
   ObjFile file;
   MeshFile meshes;
@@ -51,7 +51,7 @@ void check_same(const Outcome& a, const Outcome& b) {
   }
 }
 
-// Random statements of every kind, with everything that may stand around and between them.
+// Makes random statements of every kind, with comments, blanks and joined lines between them.
 class RandomObj {
  public:
   explicit RandomObj(unsigned seed) : random_(seed) {}
@@ -72,7 +72,7 @@ class RandomObj {
  private:
   int below(int count) { return static_cast<int>(random_() % static_cast<unsigned>(count)); }
   std::string number() { return std::to_string(below(7) - 3) + "." + std::to_string(below(10)); }
-  // Another line in the middle of a statement, or not.
+  // Starts a new line within a statement, at random.
   std::string gap() { return below(12) == 0 ? " \\\n " : below(9) == 0 ? " \t" : " "; }
   std::string end() { return (below(9) == 0 ? " # a comment" : "") + std::string("\n"); }
 
@@ -192,7 +192,7 @@ TEST_CASE("Equal OBJ vertices become one, in the order of their first use") {
       text += "f" + corner(x, y) + corner(x + 1, y) + corner(x, y + 1) + "\n";
       text += "f" + corner(x + 1, y) + corner(x + 1, y + 1) + corner(x, y + 1) + "\n";
     }
-  // The second copy of this corner is equal, but not the same to the last bit.
+  // The second copy of this corner is equal, but differs in its bits.
   text.replace(text.find("v 0 1 0"), 7, "v 0 1 -0");
   text += "f" + corner(0, 0) + " " + std::to_string(side + 1) + corner(1, 0) + "\n";
   const TemporaryFolder folder;

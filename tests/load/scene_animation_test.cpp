@@ -21,7 +21,7 @@ LoadOptions at(int frame) {
   return {.overrides = {}, .limits = {}, .on_file = {}, .loaded = nullptr, .frame = frame};
 }
 
-// The vertical field of view that a scene's camera has at a frame.
+// Returns the vertical field of view of a scene's camera at a frame.
 double fov_at(const std::string& fov, int frame, const std::string& rest = "") {
   const LoadedScene loaded =
       load("camera: {type: perspective, fov: " + fov + "}\n" + rest, at(frame));

@@ -1,4 +1,4 @@
-// Files that are no scenes, and what an error looks like: its place, its excerpt, its bounds.
+// Files that are not scenes, and the format of errors: place, excerpt and limits.
 #include <algorithm>
 #include <fstream>
 #include <iterator>
@@ -138,7 +138,7 @@ TEST_CASE("Aliases that contain themselves or grow without limit are refused") {
   CHECK(errors_of(bomb) ==
         "scene.yaml:7:26: error: more than 4000000 values, aliases counted wherever they are "
         "used\n");
-  // Depth grows by aliases too.
+  // Aliases add to the depth too.
   std::string deep = "x-0: &a0 [[[[[[[[1]]]]]]]]\n";
   for (int i = 1; i < 20; ++i)
     deep += "x-" + std::to_string(i) + ": &a" + std::to_string(i) + " [[[[*a" +

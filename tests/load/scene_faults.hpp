@@ -1,4 +1,4 @@
-// Faulty scenes and what is said of them, for tests.
+// Faulty scenes and their error messages, for tests.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// What a scene takes from a mesh file, and how it is adjusted.
+// Scenes that use and adjust the content of mesh files.
 #include <pah/image/image_file.hpp>
 #include <pah/load/load_scene.hpp>
 
@@ -9,7 +9,7 @@ using namespace pah;
 
 namespace {
 
-// A triangle of paint and one that glows, two cameras and a bulb.
+// A painted triangle, an emissive triangle, two cameras and a point light.
 constexpr const char* kitchen = R"({
   "asset": {"version": "2.0"},
   "nodes": [{"mesh": 0}, {"camera": 0, "name": "wide", "translation": [0, 0, 3]},

@@ -1,4 +1,4 @@
-// Scenes that load: what they become.
+// Loading valid scenes.
 #include <map>
 #include <pah/load/load_scene.hpp>
 #include <pah/scene/metal_presets.hpp>
@@ -176,7 +176,7 @@ lights:
 }
 
 TEST_CASE("Metals reflect their measured share") {
-  // Normal incidence, channel by channel.
+  // Returns the reflectance of a channel at normal incidence.
   const auto reflectance = [](std::size_t metal, int channel) {
     const double n = metal_presets()[metal].eta[channel], k = metal_presets()[metal].k[channel];
     return ((n - 1) * (n - 1) + k * k) / ((n + 1) * (n + 1) + k * k);
@@ -289,7 +289,7 @@ materials:
   CHECK(image(0).scale == DVec2(3));
   CHECK(image(0).clamp);
   CHECK(image(0).color_space == ColorSpace::automatic);
-  // Numbers are no colors: the same picture, linear.
+  // Used as numbers, the same picture is linear.
   CHECK(image(a.roughness.texture).color_space == ColorSpace::linear);
   CHECK(image(a.roughness.texture).scale == DVec2(3));
   CHECK(image(scene.materials[1].normal_map).color_space == ColorSpace::linear);

@@ -1,4 +1,4 @@
-// What people get wrong at first, and what they are told.
+// Typical mistakes of beginners and the messages for them.
 #include <pah/load/load_scene.hpp>
 
 #include "catch.hpp"

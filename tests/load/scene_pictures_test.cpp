@@ -1,4 +1,4 @@
-// Pictures that a scene names and that cannot be used.
+// Scenes with pictures that cannot be used.
 #include "catch.hpp"
 #include "scene_testing.hpp"
 #include "support/picture_bytes.hpp"
@@ -7,7 +7,7 @@ using namespace pah;
 
 namespace {
 
-// The errors of a scene with two uses of such a picture.
+// Returns the errors of a scene that uses a picture twice.
 std::string errors_with(const std::string& bytes, const LoadOptions& options = {}) {
   const TemporaryFolder folder;
   write_text(folder / "a.png", bytes);
@@ -24,14 +24,14 @@ TEST_CASE("A picture that cannot be decoded is an error where it is first named"
   const std::string whole = test::png(1, 1, false, test::one_gray_pixel);
   CHECK(errors_with(whole).empty());
   CHECK(errors_with(whole.substr(0, 45)) == where + "the file ends early\n");
-  // All chunks are there, but not all rows.
+  // All chunks exist, but some rows are missing.
   CHECK(errors_with(test::png(1, 2, false, test::one_gray_pixel)).starts_with(where));
   CHECK(errors_with(test::tga(4, 4, "too few")).starts_with(where));
 }
 
 TEST_CASE("NaNs in a picture are counted") {
   const TemporaryFolder folder;
-  // RGBE, not packed: 2 x 1 pixels, the second as large as can be.
+  // Uncompressed RGBE: 2 x 1 pixels, the second with the largest value.
   write_text(folder / "a.hdr", "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 2\n" +
                                    std::string("\x80\x80\x80\x81\xFF\xFF\0\xFF", 8));
   const auto scene = write_text(folder / "scene.yaml",

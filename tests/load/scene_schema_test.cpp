@@ -1,4 +1,4 @@
-// scenes/pahrender.schema.json and the parser describe one language.
+// scenes/pahrender.schema.json and the parser describe the same language.
 #include <algorithm>
 #include <cmath>
 #include <fstream>
@@ -29,7 +29,8 @@ std::string underscored(std::string kind) {
   return kind;
 }
 
-// Of JSON; numbers and lists that keyframes may stand in for are definitions.
+// Returns the JSON type. Numbers and lists that keyframes may replace are references to
+// definitions.
 std::string type_of(const Json& property) {
   const std::string prefix = "#/$defs/";
   const std::string reference = property.value("$ref", prefix);
@@ -38,7 +39,7 @@ std::string type_of(const Json& property) {
   return name == "number" || name == "integer" ? name : property.value("type", "");
 }
 
-// The words that a property may be, alone or in a list.
+// Returns the words that a property allows, alone or in a list.
 std::vector<std::string> options_of(const Json& property) {
   if (property.contains("const")) return {property["const"]};
   if (property.contains("enum")) return property["enum"];
@@ -47,7 +48,7 @@ std::vector<std::string> options_of(const Json& property) {
   return {};
 }
 
-// The language that a schema describes, as describe_language() tells it.
+// Returns the language of a schema in the form of describe_language().
 Language language_of(const Json& definitions) {
   Language language;
   for (const auto& [name, definition] : definitions.items()) {
@@ -61,7 +62,7 @@ Language language_of(const Json& definitions) {
   return language;
 }
 
-// One line a key, to be compared as text.
+// Writes one line for each key, for comparison as text.
 std::vector<std::string> lines_of(const Language& language) {
   std::vector<std::string> lines;
   for (const auto& [kind, keys] : language)
@@ -75,7 +76,7 @@ std::vector<std::string> lines_of(const Language& language) {
   return lines;
 }
 
-// A scene in which the map `value`, of the kind that `name` defines, is used.
+// Returns a scene that uses the map `value`, whose kind `name` defines.
 std::optional<Json> scene_with(const std::string& name, const Json& value) {
   const auto is = [&](const char* prefix) { return name.starts_with(prefix); };
   const auto box = [](const char* key, const Json& item) {
@@ -106,7 +107,7 @@ std::optional<Json> scene_with(const std::string& name, const Json& value) {
   return {};
 }
 
-// A value that a property surely may have.
+// Returns a value that a property allows.
 Json some_value(const std::string& key, const Json& property) {
   if (property.contains("const")) return property["const"];
   if (property.contains("enum")) return property["enum"][0];
@@ -124,7 +125,7 @@ Json some_value(const std::string& key, const Json& property) {
   return 1;
 }
 
-// Values at and beyond the borders of a property's range.
+// Returns values at and beyond the limits of a property's range.
 std::vector<Json> border_values(const std::string& key, const Json& property) {
   std::vector<Json> values;
   if (property.contains("default")) values.push_back(property["default"]);
@@ -205,19 +206,19 @@ TEST_CASE("Schema and parser accept the same values") {
     Json base = Json::object();
     for (const std::string key : definition.value("required", Json::array()))
       base[key] = some_value(key, definition["properties"][key]);
-    if (definition.contains("oneOf")) {  // one key of several must be there
+    if (definition.contains("oneOf")) {  // exactly one of several keys is required
       const std::string key = definition["oneOf"].back()["required"][0];
       base[key] = key == "image" ? Json("picture.tga") : Json::parse("[[1, 2], [3, 4]]");
     }
     for (const auto& [key, property] : definition["properties"].items()) {
-      if (key == "crop" || key == "matrix") continue;  // their numbers hang together
+      if (key == "crop" || key == "matrix") continue;  // their numbers depend on each other
       for (const Json& value : border_values(key, property)) {
         Json map = name == "transform" ? Json::object() : base;
         map[key] = value;
         const auto scene = scene_with(name, map);
         if (!scene) continue;
         ++probes;
-        // Expressions are plain words of YAML.
+        // Expressions are unquoted scalars in YAML.
         const std::string text =
             std::regex_replace(scene->dump(), std::regex("\"([^\"]* \\+ frame)\""), "$1");
         INFO(text);

@@ -1,4 +1,4 @@
-// Scenes from text, for tests.
+// Loads scenes from text, for tests.
 #pragma once
 
 #include <filesystem>
@@ -20,7 +20,7 @@ inline pah::LoadedScene load(std::string_view text, const pah::LoadOptions& opti
   return pah::load_scene(write_text(folder / "scene.yaml", text), options);
 }
 
-// All errors of a scene file, formatted without excerpts, one a line, the folder left out.
+// Returns all errors of a scene file, one per line, without excerpts and without the folder.
 inline std::string errors_in(const std::filesystem::path& file,
                              const pah::LoadOptions& options = {}) {
   std::string result;
@@ -36,7 +36,7 @@ inline std::string errors_in(const std::filesystem::path& file,
   return result;
 }
 
-// Of a text.
+// Returns all errors of a scene's text.
 inline std::string errors_of(std::string_view text, const pah::LoadOptions& options = {}) {
   const pah::TemporaryFolder folder;
   return errors_in(write_text(folder / "scene.yaml", text), options);

@@ -1,4 +1,4 @@
-// Scenes whose values are faulty: what is said, and of which place.
+// Scenes with faulty values: their error messages and places.
 #include "catch.hpp"
 #include "scene_faults.hpp"
 

@@ -245,7 +245,7 @@ TEST_CASE("One distant object costs the others no precision") {
     REQUIRE(world.warnings.size() == 1);
     CHECK_THAT(world.warnings[0], contains_text("rounding destroys its shape"));
   }
-  // A camera with a long lens does not take the origin along.
+  // A camera with a narrow field of view does not attract the origin.
   camera.position = {0, 0, 1e6};
   camera.fov = 1e-4;
   scene.camera = camera;
