@@ -12,7 +12,7 @@
 namespace pah {
 namespace {
 
-// The mean of all texels, also of those that no surface shows.
+// Returns the mean of all texels, including those that no surface shows.
 Vec3 mean_color(const Image& image) {
   DVec3 sum(0);
   for (const Vec3& pixel : image.pixels) sum += pixel;

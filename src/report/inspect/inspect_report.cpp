@@ -55,16 +55,17 @@ std::string bvh_text(const BvhReport& bvh) {
   if (tree.balance.nodes > 0)
     line("balance",
          fmt::format("the smaller child has {:.0f} % of the triangles on average, and less than "
-                     "{:.0f} % in {:.1f} % of the nodes",
+                     "{:.0f} % in {:.1f} % of the large nodes",
                      100 * tree.balance.smaller_share, 100 * TreeBalance::lopsided_below,
                      100 * tree.balance.lopsided));
   line("expected cost",
-       fmt::format("{:.2f} by {}, {:.2f} by SAH", bvh.expected_cost,
-                   bvh.bundle ? "the area's rays" : bvh.heuristic, bvh.surface_cost));
+       bvh.bundle ? fmt::format("{:.2f} for the area's rays that meet the root, {:.2f} by SAH",
+                                bvh.expected_cost, bvh.surface_cost)
+                  : fmt::format("{:.2f}", bvh.expected_cost));
   line("sibling overlap", fmt::format("{:.1f} % of the parent on average", 100 * tree.overlap));
   if (bvh.seen)
     line("  for area rays",
-         fmt::format("{:.1f} % of the parent's area as the rays see it", 100 * bvh.seen->all));
+         fmt::format("{:.1f} % of the parent on average, as the rays see it", 100 * bvh.seen->all));
   if (const auto& bundle = bvh.bundle)
     line("area rays", fmt::format("expected cost {:.2f}, in the global BVH {:.2f}", bundle->local,
                                   bundle->global));

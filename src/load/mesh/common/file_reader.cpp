@@ -39,9 +39,9 @@ bool FileReader::fill(std::size_t count) {
   if (buffer_.size() < count) buffer_.resize(count);
   const auto wanted =
       static_cast<std::size_t>(std::min<std::uint64_t>(buffer_.size() - end_, unread_));
-  stream_.read(buffer_.data() + end_, static_cast<std::streamsize>(more));
+  stream_.read(buffer_.data() + end_, static_cast<std::streamsize>(wanted));
   // Another process may have truncated the file.
-  if (static_cast<std::size_t>(stream_.gcount()) != more)
+  if (static_cast<std::size_t>(stream_.gcount()) != wanted)
     throw MeshFileError("the file cannot be read to its end");
   end_ += wanted;
   unread_ -= wanted;
