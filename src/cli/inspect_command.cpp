@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <chrono>
 #include <pah/image/image_file.hpp>
 #include <pah/influence/bundle_area.hpp>
 #include <pah/load/load_scene.hpp>
@@ -11,6 +10,7 @@
 
 #include "accel/local/build_local.hpp"
 #include "base/output_file.hpp"
+#include "base/stopwatch.hpp"
 #include "bvh/bvh_cost.hpp"
 #include "cli/terminal/console.hpp"
 #include "cli/terminal/film_size.hpp"
@@ -29,7 +29,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Fails before the work rather than after it.
+// Throws before the work begins rather than after it.
 void check_outputs(const InspectArguments& arguments) {
   const auto check_extension = [](const fs::path& file, std::string_view option,
                                   std::string_view extension) {
@@ -52,10 +52,9 @@ struct TimedBvh {
 
 // Builds the same BVH as a render without influence areas.
 TimedBvh build_global(const Triangles& triangles) {
-  const auto start = std::chrono::steady_clock::now();
+  const Stopwatch building;
   BuiltBvh built = build_bvh(triangles);
-  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
-  return {std::move(built), seconds.count()};
+  return {std::move(built), building.seconds()};
 }
 
 double cost_within_root(const BuiltBvh& built, const BoxMeasure& measure) {
@@ -82,11 +81,11 @@ BvhReport report_local(const World& world, const SceneArea& area, const LocalCon
           .build_seconds = local.seconds};
 }
 
-// The areas that a render builds, or all.
-std::vector<SceneArea> reported_areas(const Acceleration& acceleration, bool all) {
+// Returns the areas that a render builds, or all areas.
+std::vector<SceneArea> reported_areas(const Acceleration& acceleration, bool all_areas) {
   std::vector<SceneArea> areas;
   for (const AreaStatus& status : acceleration.areas)
-    if (status.plan.build || all) areas.push_back(status.area);
+    if (status.plan.build || all_areas) areas.push_back(status.area);
   return areas;
 }
 
@@ -109,7 +108,7 @@ void write_structures(const fs::path& file, const World& world, const Accelerati
                       const FilmSettings& film) {
   const StructureMap map = map_structures(world, acceleration, film);
   write_image(file, {{"", {"R", "G", "B"}, map.image}});
-  fmt::print("\nstructures that answer shadow rays, {}: black where no shadow ray is sent\n{}",
+  fmt::print("\nstructure map {}: what answers shadow rays; black where there are none\n{}",
              file.string(), legend_text(map.legend));
 }
 
@@ -173,10 +172,10 @@ ExitCode run_inspect(const InspectArguments& arguments) {
   fmt::print("{}", inspect_text(report));
   if (!arguments.json.empty()) write_text_file(arguments.json, inspect_json(report));
   if (!arguments.heat_map.empty()) {
-    const CostSummary most = summarize(costs);
+    const CostSummary summary = summarize(costs);
     write_image(arguments.heat_map, {{"", {"R", "G", "B"}, heat_map(costs)}});
     fmt::print("\nheat map {}: white is {} nodes on the left, {} triangles on the right\n",
-               arguments.heat_map.string(), most.max_nodes, most.max_triangles);
+               arguments.heat_map.string(), summary.max_nodes, summary.max_triangles);
   }
   if (!arguments.structures.empty())
     write_structures(arguments.structures, world, acceleration, scene.film);

@@ -87,11 +87,11 @@ std::string predicted_and_measured(double predicted, const std::optional<double>
 }
 
 std::string pilot_text(const GridPlan& plan, const GridPilot& pilot) {
-  return line("rays expected", fmt::format("{:.0f}", pilot.expected_rays)) +
-         line("rays of the pilot", fmt::format("{}, of which {:.1f} % are occluded", pilot.rays,
-                                               100 * pilot.occluded_share)) +
-         line("a ray in the BVH", nanoseconds(pilot.seconds) + " measured") +
-         line("a ray in the grid",
+  return line("expected rays", fmt::format("{:.0f}", pilot.expected_rays)) +
+         line("pilot rays", fmt::format("{}, of which {:.1f} % are occluded", pilot.rays,
+                                        100 * pilot.occluded_share)) +
+         line("per ray, BVH", nanoseconds(pilot.seconds) + " measured") +
+         line("per ray, grid",
               predicted_and_measured(plan.predicted_seconds, plan.measured_seconds, nanoseconds)) +
          line("time saved",
               predicted_and_measured(plan.predicted_saving, plan.measured_saving, seconds));
@@ -121,7 +121,7 @@ std::string grid_text(const GridReport& grid) {
   if (const auto pilot = traced_pilot(plan)) text += pilot_text(plan, *pilot);
   if (grid.lists) text += lists_text(*grid.lists);
   if (grid.bytes) text += line("memory", format_bytes(*grid.bytes));
-  if (grid.build_seconds) text += line("build", seconds(*grid.build_seconds));
+  if (grid.build_seconds) text += line("build time", seconds(*grid.build_seconds));
   return text;
 }
 

@@ -107,8 +107,8 @@ TEST_CASE("Inspect reports which lights have grids, and why") {
   CHECK(below["light"] == "a, \"b\"");
   CHECK(below["reason"] == "none of the pilot's rays goes to it");
   CHECK(below["pilot_rays"] == 0);
-  for (const char* part : {"rays of a render are answered by: bvh", "Grid of light bulb: not built",
-                           "none of the pilot's rays goes to it", "a ray in the BVH"})
+  for (const char* part : {"accelerator of a render: bvh", "Grid of light bulb: not built",
+                           "none of the pilot's rays goes to it", "per ray, BVH"})
     CHECK(contains(outcome.out, part));
 
   const auto reason_with = [](const std::string& key) {
@@ -185,7 +185,7 @@ TEST_CASE("Inspect reports derived areas on request") {
     CHECK(bvhs[i]["levels"][0].contains("seen_overlap"));
     CHECK(bvhs[i]["surface_cost"].get<double>() > 0);
   }
-  CHECK(contains(outcome.out, "by the rays of the area"));
+  CHECK(contains(outcome.out, "as the rays see it"));
 }
 
 TEST_CASE("Inspect names what replaced its former outputs") {

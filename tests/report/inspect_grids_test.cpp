@@ -1,4 +1,4 @@
-// What people read of grids.
+// The report of `inspect` on light grids.
 #include "catch.hpp"
 #include "report/inspect/inspect_report.hpp"
 
@@ -25,13 +25,13 @@ TEST_CASE("The text of a grid says what was predicted and measured") {
   CHECK(grid_text(grid) == R"(
 Grid of light bulb: built
   reason            it is expected to save more than it costs
-  rays expected     4000000
-  rays of the pilot 200, of which 25.0 % are occluded
-  a ray in the BVH  1000.0 ns measured
-  a ray in the grid 375.0 ns predicted, 500.0 ns measured
+  expected rays     4000000
+  pilot rays        200, of which 25.0 % are occluded
+  per ray, BVH      1000.0 ns measured
+  per ray, grid     375.0 ns predicted, 500.0 ns measured
   time saved        2.35 s predicted, 1.5 s measured
   memory            900 bytes
-  build             0.5 s
+  build time        0.5 s
 )");
   grid.lists = GridLists{12, 3, 40, 7};
   CHECK_THAT(grid_text(grid), contains_text("  cells             12, of which 25.0 % are empty\n"

@@ -30,13 +30,13 @@ std::string leaf_sizes_text(const TreeSummary& tree) {
 
 std::string levels_text(const TreeSummary& tree, const std::optional<SeenOverlap>& seen) {
   std::string text = fmt::format("  level      nodes     leaves  overlap of siblings{}\n",
-                                 seen ? "  as seen" : "");
+                                 seen ? "  for area rays" : "");
   for (std::size_t depth = 0; depth < tree.levels.size(); ++depth) {
     const TreeLevel& level = tree.levels[depth];
     text += fmt::format("  {:5} {:10} {:10}", depth, level.nodes, level.leaves);
     if (level.nodes > level.leaves) text += fmt::format("  {:5.1f} %", 100 * level.overlap);
     if (seen && level.nodes > level.leaves)
-      text += fmt::format("  {:18.1f} %", 100 * seen->levels[depth]);
+      text += fmt::format("  {:24.1f} %", 100 * seen->levels[depth]);
     text += '\n';
   }
   return text;
@@ -49,34 +49,40 @@ std::string bvh_text(const BvhReport& bvh) {
     text += fmt::format("  {:18}{}\n", name, value);
   };
   line("triangles", fmt::format("{}", tree.triangles));
-  line("nodes", fmt::format("{}, of which {} leaves; {} eight-wide", tree.nodes, tree.leaves,
-                            bvh.wide_nodes));
-  line("depth of leaves", fmt::format("at most {}, mean {:.1f}", tree.max_depth, tree.mean_depth));
+  line("binary nodes", fmt::format("{}, of which {} are leaves", tree.nodes, tree.leaves));
+  line("eight-wide nodes", fmt::format("{}", bvh.wide_nodes));
+  line("depth of leaves", fmt::format("mean {:.1f}, at most {}", tree.mean_depth, tree.max_depth));
   if (tree.balance.nodes > 0)
     line("balance",
-         fmt::format("smaller children have {:.0f} %, mean; {:.1f} % of nodes below {:.0f} %",
-                     100 * tree.balance.smaller_share, 100 * tree.balance.lopsided,
-                     100 * TreeBalance::lopsided_below));
-  line("expected cost", fmt::format("{:.2f}, by SAH {:.2f}", bvh.expected_cost, bvh.surface_cost));
-  line("overlap", fmt::format("{:.1f} % of the parent, mean", 100 * tree.overlap));
+         fmt::format("the smaller child has {:.0f} % of the triangles on average, and less than "
+                     "{:.0f} % in {:.1f} % of the large nodes",
+                     100 * tree.balance.smaller_share, 100 * TreeBalance::lopsided_below,
+                     100 * tree.balance.lopsided));
+  line("expected cost",
+       bvh.bundle ? fmt::format("{:.2f} for the area's rays that meet the root, {:.2f} by SAH",
+                                bvh.expected_cost, bvh.surface_cost)
+                  : fmt::format("{:.2f}", bvh.expected_cost));
+  line("sibling overlap", fmt::format("{:.1f} % of the parent on average", 100 * tree.overlap));
   if (bvh.seen)
-    line("  as seen", fmt::format("{:.1f} %, by the rays of the area", 100 * bvh.seen->all));
+    line("  for area rays",
+         fmt::format("{:.1f} % of the parent on average, as the rays see it", 100 * bvh.seen->all));
   if (const auto& bundle = bvh.bundle)
-    line("bundle's rays",
-         fmt::format("expected {:.2f}, in the global BVH {:.2f}", bundle->local, bundle->global));
+    line("area rays", fmt::format("expected cost {:.2f}, in the global BVH {:.2f}", bundle->local,
+                                  bundle->global));
   if (const auto& rays = bvh.area_rays) {
     line("measured rays",
-         fmt::format("{}, of which {} need no other BVH", rays->rays, rays->answered));
+         fmt::format("{}, of which {} do not need the global BVH", rays->rays, rays->answered));
     if (rays->rays > 0)
       line("  cost",
-           fmt::format("mean {:.2f}, in the global BVH {:.2f}", rays->local, rays->global));
+           fmt::format("mean {:.2f}, in the global BVH alone {:.2f}", rays->local, rays->global));
   }
   if (const auto& rays = bvh.camera_rays) {
     line("camera rays",
          fmt::format("{}, of which {:.1f} % hit", rays->rays, 100 * hit_share(*rays)));
-    line("  nodes", fmt::format("at most {}, mean {:.2f}", rays->max_nodes, rays->nodes_per_ray));
-    line("  triangles",
-         fmt::format("at most {}, mean {:.2f}", rays->max_triangles, rays->triangles_per_ray));
+    line("  nodes visited",
+         fmt::format("mean {:.2f}, at most {}", rays->nodes_per_ray, rays->max_nodes));
+    line("  triangles tested",
+         fmt::format("mean {:.2f}, at most {}", rays->triangles_per_ray, rays->max_triangles));
   }
   line("memory", format_bytes(bvh.memory_bytes));
   line("build", fmt::format("{:.3g} s", bvh.build_seconds));
@@ -162,7 +168,7 @@ SeenOverlap seen_overlaps(const BinaryTree& tree, const InfluenceArea& area) {
 std::string inspect_text(const InspectReport& report) {
   std::string text = fmt::format("{}: {} triangles, {} x {} pixels\n", report.scene,
                                  report.triangles, report.width, report.height);
-  text += fmt::format("rays of a render are answered by: {}\n", report.accelerator);
+  text += fmt::format("accelerator of a render: {}\n", report.accelerator);
   for (const BvhReport& bvh : report.bvhs) text += bvh_text(bvh);
   for (const GridReport& grid : report.light_grids) text += grid_text(grid);
   return text;

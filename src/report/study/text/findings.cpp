@@ -179,8 +179,8 @@ std::vector<Finding> findings(const StudyResults& results) {
 std::string study_findings(const StudyResults& results) {
   std::string text =
       "## Findings\n\n"
-      "Costs are those of nearest hits, by which claims are judged, then of all nodes that rays\n"
-      "meet whatever they hit.\n\n"
+      "The first cost is that of searching for nearest hits, by which the claims are judged. `all\n"
+      "nodes` also counts the nodes behind the nearest hit.\n\n"
       "| thesis and follow-up paper | here | holds |\n"
       "| --- | --- | --- |\n";
   for (const Finding& finding : findings(results))

@@ -41,15 +41,15 @@ std::string prediction_row(const std::string& name, const StudyResults& results,
 std::string predictions(const StudyResults& results) {
   std::string text =
       "## Prediction\n\n"
-      "The cost that is expected of a ray that meets the root, against the mean over the rays of\n"
-      "the bundle: every node that they meet within the region, whatever they hit. Mean of\n"
-      "|predicted - measured| / measured over trees built by SAH and by PAH.\n\n"
-      "`PAH` is clipped to the region and uniform in what the rays are uniform in (solid angle\n"
-      "for points), `plane measure` in the picture plane instead, `unclipped` ignores the "
-      "region's\n"
-      "borders. `noise` is the standard error of the measured mean. `nearest hit` is what a "
-      "search\n"
-      "that stops at the nearest hit visits of it: no heuristic here knows about that.\n\n";
+      "Each heuristic predicts the cost of a ray that meets the root's box. The measured cost is\n"
+      "the mean over the rays of the bundle; it counts every node that a ray meets within the\n"
+      "region, also behind its nearest hit. The table shows the mean error,\n"
+      "|predicted - measured| / measured, over the trees built by SAH and by PAH.\n\n"
+      "`PAH` clips boxes to the region and measures them as the rays are distributed (for points,\n"
+      "by solid angle). `plane measure` measures them in the picture plane instead. `unclipped`\n"
+      "ignores the borders of the region. `noise` is the standard error of the measured mean.\n"
+      "`nearest hit` is the share of the measured cost that remains if the search stops at the\n"
+      "nearest hit; no heuristic here takes this into account.\n\n";
   text += markdown_header({"", "PAH", "plane measure", "unclipped", "SAH", "noise", "nearest hit"});
   text += prediction_row("all plane areas", results,
                          [](const PredictionRow& row) { return !is_point(row.tree.group); });
@@ -95,30 +95,33 @@ std::string relative_table(const StudyResults& results, const StudyVariant& base
 std::string costs(const StudyResults& results) {
   std::string text =
       "## Cost of the trees\n\n"
-      "Nearest hits of the bundle's rays within the region, with early termination, in the binary\n"
-      "tree: what a renderer pays. Means of the cost relative to SAH + longest axis; below 1 is\n"
-      "better.\n\n";
+      "The cost of searching for the nearest hits of the bundle's rays within the region, in the\n"
+      "binary tree. This is what a renderer pays. The table shows means relative to SAH + longest\n"
+      "axis; below 1 is better.\n\n";
   text += relative_table(results, sah_longest, &CostRow::closest);
   text += "Relative to SAH + best axis:\n\n";
   text += relative_table(results, sah_best, &CostRow::closest);
   text +=
-      "Every node that rays meet within the region, whatever they hit, relative to SAH + longest\n"
-      "axis. This is what heuristics minimize, and what rays cost that hit nothing:\n\n";
+      "The cost of all nodes that rays meet within the region, also behind the nearest hit,\n"
+      "relative to SAH + longest axis. This is what heuristics minimize, and the cost of rays "
+      "that\n"
+      "hit nothing:\n\n";
   text += relative_table(results, sah_longest, &CostRow::all);
   text +=
-      "Nearest hits as the renderer's own kernels count them, in nodes that are eight children\n"
-      "wide and blocks of triangles, relative to SAH + best axis:\n\n";
+      "The cost of nearest hits as the renderer's own kernels count it, with eight children per\n"
+      "node and blocks of triangles, relative to SAH + best axis:\n\n";
   return text + relative_table(results, sah_best, &CostRow::kernel);
 }
 
 std::string break_even(const StudyResults& results) {
   std::string text =
       "## Break-even\n\n"
-      "A ray that finds nothing in its local BVH may have to ask the global one as well. So local\n"
-      "BVHs pay only if the share of rays that hit locally exceeds (cost of the local BVH) /\n"
-      "(cost of the global BVH, SAH + best axis, for the same rays). That share:\n\n";
+      "A ray without a hit in its local BVH may have to traverse the global BVH as well. So a "
+      "local\n"
+      "BVH pays only if the share of rays that hit in it exceeds its cost divided by the cost of\n"
+      "the global BVH (SAH + best axis) for the same rays. The table shows this quotient:\n\n";
   text += variants_table(results, results.costs, &CostRow::break_even);
-  text += "The share of the bundles' rays that do hit within the region:\n\n";
+  text += "The actual share of the bundles' rays that hit within the region:\n\n";
   text += markdown_header({"", "hit"});
   const auto share = [&](const std::string& name, const auto& take) {
     return markdown_row(
@@ -135,27 +138,30 @@ std::string break_even(const StudyResults& results) {
 std::string balance(const StudyResults& results) {
   std::string text =
       "## Balance\n\n"
-      "The part of nodes, of those with 64 triangles and more, whose smaller child has less than\n"
-      "a sixteenth of them:\n\n";
+      "The share of lopsided nodes: of all nodes with at least 64 triangles, those whose smaller\n"
+      "child has less than a sixteenth of the triangles.\n\n";
   text += variants_table(results, results.costs, &CostRow::lopsided);
-  text += "Mean depth of leaves, over the least that a tree of so many leaves can have:\n\n";
+  text +=
+      "The mean depth of leaves, relative to a balanced tree with the same number of leaves:\n\n";
   return text + variants_table(results, results.costs, &CostRow::mean_depth);
 }
 
 std::string builds(const StudyResults& results) {
   return "## Building\n\n"
-         "CPU seconds relative to SAH + best axis. These alone are measured, not counted.\n\n" +
+         "The CPU time of building, relative to SAH + best axis. Unlike costs, times are measured\n"
+         "and vary from run to run.\n\n" +
          relative_table(results, sah_best, &CostRow::build_seconds);
 }
 
 std::string sweeps(const StudyResults& results) {
   std::string text =
       "## Parameters\n\n"
-      "One at a time, the others at their defaults (16 bins, leaves of up to 8 triangles, no rule\n"
-      "for smaller ones, no fallback, facing threshold 0.5, ratios 2 and 0, no least share):\n"
-      "nearest-hit cost relative to the default, mean over the meshes. `inf` is never. Facing and\n"
-      "ratios with SPFH, the least share with the longest axis, all others with the best. Rules\n"
-      "for leaves where these may have up to 32 triangles.\n\n";
+      "One parameter varies at a time; the others keep their defaults (16 bins, leaves of up to 8\n"
+      "triangles, no further rules for leaves, no fallback, facing threshold 0.5, ratios 2 and 0,\n"
+      "no least share). The table shows the cost of nearest hits relative to the default, as the\n"
+      "mean over the meshes; `inf` means never. The facing threshold and the ratios are varied\n"
+      "with SPFH, the least share with the longest axis, all others with the best axis. Rules for\n"
+      "leaves are tested with leaves of up to 32 triangles.\n\n";
   std::vector<std::string> areas;
   std::vector<std::pair<std::string, double>> settings;
   for (const SweepRow& row : results.sweeps) {
@@ -189,13 +195,11 @@ std::string sweeps(const StudyResults& results) {
 std::string study_markdown(const StudyResults& results, bool with_plots) {
   std::string text = fmt::format(
       "# Study of local BVHs\n\n"
-      "{} rays an area, seed {}{}. Costs are counted: {:g} a box test, {:g} for up to {} "
-      "triangles\n"
-      "tested side by side. They depend on the seed alone; rays a second, at the end, do not. "
-      "Areas\n"
-      "are placed by the bounding sphere of a mesh and half as wide, so that they cut through it;\n"
-      "rays start at the area's near face or eye. Rows: prediction.csv, cost.csv, build.csv,\n"
-      "sweep.csv.\n\n",
+      "{} rays per area, seed {}{}. Costs are counted: {:g} for a box test, {:g} for a test of up\n"
+      "to {} triangles side by side. They depend on the seed alone; the times and the rays per\n"
+      "second at the end also depend on the machine. Influence areas are half as wide as the\n"
+      "bounding sphere of their mesh, so that they cut through it. Rays start at the near face or\n"
+      "the eye of the area. All rows are in prediction.csv, cost.csv, build.csv and sweep.csv.\n\n",
       results.config.rays, results.config.seed, results.config.quick ? ", quick" : "", box_cost,
       triangle_cost, BuildConfig{}.side_by_side);
   if (results.skipped_areas > 0)

@@ -92,7 +92,7 @@ std::string rates_table(const std::vector<RateRow>& rows, const std::vector<Rate
 // Returns a row for each accelerator of a scene.
 std::string structures_table(const std::vector<RateRow>& rows) {
   std::string text = markdown_header(
-      {"scene", "triangles", "accelerator", "build, seconds", "MB", "rays answered otherwise"});
+      {"scene", "triangles", "accelerator", "build, seconds", "MB", "answers that differ"});
   std::vector<std::pair<std::string, std::string>> done;
   for (const RateRow& row : rows) {
     const std::pair<std::string, std::string> structure{row.scene, row.accelerator};
@@ -121,13 +121,15 @@ std::string rates_markdown(const StudyResults& results, bool with_plots) {
   for (const RateRow& row : rows) repetitions = std::max(repetitions, row.repetition);
   std::string text = fmt::format(
       "## Rays a second\n\n"
-      "Of the rays that a render of each scene asks in some tiles of its picture, in its batches:\n"
-      "about {} thousand of a kind or less. A mesh stands on a floor, under a bulb and a sun.\n"
-      "Shadow rays to a point or sun are those to lights that may have a grid; light has a grid\n"
-      "for each of them. embree16 is Embree asked for any hit by packets of 16 rays.\n"
-      "Millions a second: the median of {} repetitions, in which accelerators take turns\n"
-      "(least-most); ratios are medians of the repetitions' own. Rows: rays.csv. Measured\n"
-      "with {}{}{}.\n\n",
+      "The rays were recorded, in their batches, from a render of some tiles of each scene: at\n"
+      "most about {} thousand of each kind. Meshes stand on a floor, under a bulb and a sun.\n"
+      "`shadow to a point or sun` are the shadow rays to lights that may have a grid; the\n"
+      "accelerator `light` has a grid for each of these lights. `embree16` is Embree searching "
+      "for\n"
+      "any hit in packets of 16 rays. The table shows millions of rays per second: the median of\n"
+      "{} repetitions, with minimum and maximum in parentheses. Accelerators take turns in each\n"
+      "repetition, and a ratio is the median over the repetitions. All rows are in rays.csv.\n"
+      "Measured with {}{}{}.\n\n",
       results.config.quick ? 10 : 100, repetitions, instruction_set(),
       has_embree() ? " and Embree " : "; there is no Embree", embree_version());
   if (with_plots) text += "![Rays a second](rays.svg)\n\n";
@@ -140,15 +142,15 @@ std::string rates_markdown(const StudyResults& results, bool with_plots) {
     std::vector<RateCase> cases;
     std::ranges::copy_if(all, std::back_inserter(cases),
                          [&](const RateCase& of) { return of.threads == threads; });
-    text += threads == 1 ? "On 1 thread, by its CPU time:\n\n"
-                         : fmt::format("On {} threads, by the clock:\n\n", threads);
+    text += threads == 1 ? "On 1 thread, in CPU time:\n\n"
+                         : fmt::format("On {} threads, in wall-clock time:\n\n", threads);
     text += rates_table(rows, cases);
   }
   text += fmt::format(
-      "What was asked. Builds are by all threads, in seconds of the clock. Rays answered\n"
-      "otherwise than by bvh: one of both hits and the other does not, or nearest triangles\n"
-      "differ that are farther apart than {:g} of their distance. Embree's ray-triangle test is\n"
-      "its own, so a few are expected of it.\n\n",
+      "The accelerators. Build times are wall-clock seconds with all threads. An answer differs\n"
+      "from that of `bvh` if only one of the two hits, or if the nearest triangles differ and\n"
+      "their distances differ by more than {:g} of the distance. Embree has another ray-triangle\n"
+      "test, so a few differences are expected.\n\n",
       tie);
   return text + structures_table(rows);
 }
