@@ -11,7 +11,7 @@ namespace pah::cli {
 struct CompareArguments {
   std::filesystem::path a, b;
   bool json = false;
-  std::optional<double> threshold;  // of the largest difference
+  std::optional<double> threshold;  // that the largest difference must not exceed
 };
 
 // Throws FileError, and std::invalid_argument if the sizes differ.

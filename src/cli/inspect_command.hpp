@@ -20,7 +20,7 @@ struct InspectArguments {
   std::filesystem::path heat_map;    // .png
   std::filesystem::path structures;  // .png
   std::filesystem::path overlay;     // .png
-  std::uint32_t levels = 8;          // of boxes
+  std::uint32_t levels = 8;          // of boxes in the overlay
   bool all_areas = false;            // also areas that a render does not build
 };
 

@@ -58,16 +58,17 @@ void add_render_options(CLI::App& app, RenderArguments& arguments) {
              throw CLI::ValidationError(
                  "--frames", text + " is neither A:B with 0 <= A < B <= 2^30 nor a frame number");
          },
-         "Render the frames A <= i < B of an animation, or one.\n"
-         "#### in FILE is the frame's number. Complete frames of\nthis scene are kept (.png, .exr, "
-         ".film)")
+         "Render the frames A <= i < B of an animation, or one\n"
+         "frame. #### in FILE becomes the frame number. Frames of\n"
+         "this scene that are complete already are kept (.png,\n.exr, .film)")
       ->type_name("A:B");
   app.add_option("--width", arguments.width,
                  "Width of the picture in pixels; without --height, the\nheight follows the "
                  "scene's aspect ratio")
       ->check(whole_number(1, 65536))
       ->type_name("N");
-  app.add_option("--height", arguments.height, "Height of the picture in pixels, likewise")
+  app.add_option("--height", arguments.height,
+                 "Height of the picture in pixels; without --width, the\nwidth follows")
       ->check(whole_number(1, 65536))
       ->type_name("N");
   app.add_option_function<std::string>(
@@ -130,7 +131,7 @@ void add_render_options(CLI::App& app, RenderArguments& arguments) {
       ->type_name("NAME");
   app.add_option("-D", arguments.overrides,
                  "Set a key of the scene: -D render.max_depth=3. May be\nrepeated")
-      ->allow_extra_args(false)  // otherwise it would take the scene that follows
+      ->allow_extra_args(false)  // else -D would also take the SCENE that follows
       ->type_name("KEY=VALUE");
   app.add_option("--stats", arguments.stats, "Write times, rays, memory and error as JSON")
       ->type_name("FILE");
@@ -198,7 +199,7 @@ CLI::App* add_inspect(CLI::App& app, InspectArguments& arguments) {
   inspect->add_option("--json", arguments.json, "Write the report as JSON")->type_name("FILE");
   inspect
       ->add_option("--heatmap", arguments.heat_map,
-                   "Write a picture of what each pixel's ray costs:\n"
+                   "Write a picture of the cost of each pixel's ray:\n"
                    "nodes on the left, triangles on the right")
       ->type_name("FILE.png");
   inspect
@@ -334,7 +335,7 @@ void hold_standard_streams() {
     if (::fcntl(stream, F_GETFD) == -1) (void)::open("/dev/null", O_RDONLY);
 }
 
-// If the system refuses a thread, oneTBB throws where nobody can catch it.
+// If the system refuses to start a thread, oneTBB throws where no handler can catch it.
 [[noreturn]] void end_without_catch() {
   const std::exception_ptr error = std::current_exception();
   if (!error) std::abort();

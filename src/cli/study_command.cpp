@@ -42,7 +42,7 @@ struct Subject {
   StudyScene scene;
 };
 
-void take(const Scene& scene, Subject& subject) {
+void set_scene(const Scene& scene, Subject& subject) {
   subject.scene.world = make_world(scene);
   Scene& settings = subject.scene.settings;
   settings.film = scene.film;
@@ -62,7 +62,7 @@ void check(const StudyMesh& mesh, const fs::path& file) {
 
 Subject load_study_scene(const fs::path& file) {
   Subject subject;
-  take(load_scene(file).scene, subject);
+  set_scene(load_scene(file).scene, subject);
   subject.mesh.positions = subject.scene.world.positions;
   subject.mesh.indices = subject.scene.world.indices;
   check(subject.mesh, file);
@@ -80,7 +80,7 @@ Subject load_study_mesh(const fs::path& file) {
     check(subject.mesh, file);
     Scene stage = make_stage();
     put_on_stage(stage, std::move(mesh));
-    take(stage, subject);
+    set_scene(stage, subject);
   } catch (const MeshFileError& error) {
     fail({file.string(), error.line(), error.column()}, error.what(), error.excerpt());
   }
@@ -93,8 +93,8 @@ struct Subjects {
 };
 
 // Loads all files and reports all their errors at once.
-Subjects load_all(const std::vector<fs::path>& files) {
-  Subjects all;
+Subjects load_subjects(const std::vector<fs::path>& files) {
+  Subjects subjects;
   std::vector<LocatedError> errors;
   for (const fs::path& file : files) {
     Subject subject;
@@ -106,14 +106,14 @@ Subjects load_all(const std::vector<fs::path>& files) {
     }
     // Names identify rows, so they must differ.
     std::string name = file.stem().string();
-    if (std::ranges::find(all.meshes, name, &StudyMesh::name) != all.meshes.end())
-      name = fmt::format("{} ({})", name, all.meshes.size() + 1);
+    if (std::ranges::find(subjects.meshes, name, &StudyMesh::name) != subjects.meshes.end())
+      name = fmt::format("{} ({})", name, subjects.meshes.size() + 1);
     subject.mesh.name = subject.scene.name = name;
-    all.meshes.push_back(std::move(subject.mesh));
-    all.scenes.push_back(std::move(subject.scene));
+    subjects.meshes.push_back(std::move(subject.mesh));
+    subjects.scenes.push_back(std::move(subject.scene));
   }
   if (!errors.empty()) throw SceneError(std::move(errors));
-  return all;
+  return subjects;
 }
 
 void show_progress(double done, const std::string& stage) {
@@ -141,7 +141,7 @@ ExitCode run_study(const StudyArguments& arguments) {
   const bool terminal = can_redraw();
   const auto progress =
       terminal ? show_progress : std::function<void(double, const std::string&)>{};
-  const Subjects subjects = load_all(arguments.files);
+  const Subjects subjects = load_subjects(arguments.files);
   StudyResults results = pah::run_study(subjects.meshes, config, progress);
   results.rates = measure_rates(subjects.scenes, config, progress);
   if (terminal) say("\r\x1b[K");

@@ -13,7 +13,7 @@ struct StudyArguments {
   std::vector<std::filesystem::path> files;  // meshes and scenes
   std::filesystem::path output;              // a folder, created if it is missing
   bool quick = false;
-  std::uint64_t rays = 0;  // per area; 0 for the default
+  std::uint64_t rays = 0;  // per area; 0: the default
   std::uint64_t seed = 1;
 };
 

@@ -27,7 +27,7 @@ struct PictureFormat {
 // Decides by the extension.
 [[nodiscard]] bool is_film_file(const std::filesystem::path& file);
 
-// Throws FileError unless the picture or film can be written; leaves no trace.
+// Throws FileError if the picture or film cannot be written. Leaves no file behind.
 void check_output(const std::filesystem::path& file);
 
 }  // namespace pah::cli

@@ -105,7 +105,7 @@ PixelRect bounds_of(const std::vector<Group>& groups) {
   return bounds;
 }
 
-std::int64_t area_of(const PixelRect& rect) {
+std::int64_t pixel_count(const PixelRect& rect) {
   return std::int64_t{rect.width()} * std::int64_t{rect.height()};
 }
 
@@ -115,11 +115,11 @@ void check_covered(const std::vector<Group>& groups, const PixelRect& bounds) {
   std::set<int> columns, rows;
   for (const Group& group : groups) {
     const PixelRect rect = rect_of(group);
-    covered += area_of(rect);
+    covered += pixel_count(rect);
     columns.insert({rect.x0, rect.x1});
     rows.insert({rect.y0, rect.y1});
   }
-  if (covered == area_of(bounds)) return;
+  if (covered == pixel_count(bounds)) return;
   for (auto y0 = rows.begin(), y1 = std::next(y0); y1 != rows.end(); y0 = y1++)
     for (auto x0 = columns.begin(), x1 = std::next(x0); x1 != columns.end(); x0 = x1++) {
       const PixelRect cell{*x0, *x1, *y0, *y1};

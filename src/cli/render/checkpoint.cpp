@@ -63,10 +63,10 @@ StartedFilm Checkpoint::resume(int from) const {
 
 void Checkpoint::pass_done(const Film& film, const FilmSamples& samples) {
   if (!options_.interval) return;
-  const std::chrono::duration<double> interval(*options_.interval);
-  if (Clock::now() - written_ < interval || samples.to == origin_.render.samples) return;
+  const bool last = samples.to == origin_.render.samples;
+  if (last || since_written_.seconds() < *options_.interval) return;
   write(film, samples);
-  written_ = Clock::now();
+  since_written_ = {};
 }
 
 void Checkpoint::keep(const Film& film, const FilmSamples& samples) {

@@ -1,12 +1,12 @@
 // Saves the state of a running render to a film file beside its picture.
 #pragma once
 
-#include <chrono>
 #include <filesystem>
 #include <optional>
 #include <pah/render/film_file.hpp>
 #include <pah/render/render.hpp>
 
+#include "base/stopwatch.hpp"
 #include "cli/terminal/warnings.hpp"
 
 namespace pah::cli {
@@ -36,8 +36,6 @@ class Checkpoint {
   void remove() const;
 
  private:
-  using Clock = std::chrono::steady_clock;
-
   [[nodiscard]] StartedFilm resume(int from) const;
   bool write(const Film& film, const FilmSamples& samples);
 
@@ -46,7 +44,7 @@ class Checkpoint {
   CheckpointOptions options_;
   Warnings& warnings_;
   bool warned_ = false;
-  Clock::time_point written_ = Clock::now();
+  Stopwatch since_written_;
 };
 
 }  // namespace pah::cli

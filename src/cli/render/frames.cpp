@@ -43,16 +43,16 @@ ExitCode run_frames(const RenderArguments& arguments, const RenderHooks& hooks) 
   const fs::path pattern = pattern_of(arguments);
   require_number(pattern, "-o", frames);
   require_number(arguments.stats, "--stats", frames);
-  RenderArguments one = arguments;
-  one.keep_whole = true;
+  RenderArguments frame_arguments = arguments;
+  frame_arguments.keep_whole = true;
   LoadedFiles loaded;
   RenderHooks frame_hooks = hooks;
   if (frame_hooks.loaded == nullptr) frame_hooks.loaded = &loaded;
   for (int frame = frames.from; frame < frames.to; ++frame) {
-    one.frame = frame;
-    one.output = numbered(pattern, frame);
-    one.stats = numbered(arguments.stats, frame);
-    const ExitCode code = run_render(one, frame_hooks);
+    frame_arguments.frame = frame;
+    frame_arguments.output = numbered(pattern, frame);
+    frame_arguments.stats = numbered(arguments.stats, frame);
+    const ExitCode code = run_render(frame_arguments, frame_hooks);
     if (code != ExitCode::done) return code;
   }
   return ExitCode::done;

@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// As write_image compares them: upper case and lower case are the same.
+// Ignores case, as write_image does.
 bool has_image_extension(const fs::path& file) {
   return std::ranges::find(image_extensions(), lower_extension(file)) != image_extensions().end();
 }
@@ -47,7 +47,7 @@ void check_format(const RenderArguments& arguments, const fs::path& output) {
   if (arguments.sample_range) require("--samples", film_extension);
 }
 
-// Whether both paths lead to the same file.
+// Returns whether both paths lead to the same file.
 bool is_same_file(const fs::path& a, const fs::path& b) {
   std::error_code error;
   return fs::weakly_canonical(fs::absolute(a), error) ==

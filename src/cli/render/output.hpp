@@ -1,4 +1,4 @@
-// The file that a render writes: its name, its format and what fits in it.
+// The file that a render writes: its name, its format and the layers that it can hold.
 #pragma once
 
 #include <filesystem>
@@ -11,9 +11,9 @@
 
 namespace pah::cli {
 
-// The output that the arguments name, or the scene's name with .png. Throws UsageError if its
-// format is unknown, if an option does not fit the format, or if --stats names the same file;
-// FileError if the files cannot be written, unless the arguments only ask to check.
+// Returns the output that the arguments name, or the scene's name with .png. Throws UsageError if
+// its format is unknown, if an option does not fit the format, or if --stats names the same file.
+// Throws FileError if the files cannot be written, unless the arguments only ask to check.
 [[nodiscard]] std::filesystem::path checked_output(const RenderArguments& arguments);
 
 // Switches off the layers that the output's format cannot hold, with a warning.
@@ -21,12 +21,11 @@ void leave_out_layers(FilmSettings& film, const std::filesystem::path& output, W
 
 [[nodiscard]] PictureFormat format_of(const RenderArguments& arguments);
 
-// `samples`: finished by every pixel, after `seconds` of rendering.
+// `samples` is the number that every pixel has finished, `seconds` the time of rendering.
 void write_picture(const std::filesystem::path& file, const Film& film, int samples, double seconds,
                    const FilmOrigin& origin, const RenderArguments& arguments);
 
-// Warns of what makes a picture look wrong apart from noise: samples that were not finite, and a
-// large part of the picture clipped.
+// Warns if samples were not finite, and if a large part of the picture is clipped.
 void warn_of_faults(const RenderResult& result, double exposure,
                     const std::filesystem::path& output, Warnings& warnings);
 

@@ -29,7 +29,7 @@ struct RenderArguments {
   bool preview = false;
   std::optional<std::uint64_t> seed;
   std::optional<double> exposure;
-  int threads = 0;                         // 0: all
+  int threads = 0;                         // 0: one per core
   double time_limit = 0;                   // seconds; 0: none
   std::optional<IndexRange> sample_range;  // of every pixel; by default all
   std::optional<double> checkpoint;        // seconds between saves

@@ -80,7 +80,7 @@ std::optional<ExitCode> RenderJob::load() {
   world_ = make_world(scene_);
   warnings_.add(world_.warnings);
   if (warnings_.failed()) return ending();
-  // The world holds all geometry from here on.
+  // From here on the world holds all geometry.
   scene_.meshes = {};
   scene_.instances = {};
   return std::nullopt;
@@ -117,7 +117,7 @@ std::optional<ExitCode> RenderJob::build() {
 }
 
 void RenderJob::open_onlookers() {
-  // A device cannot be rewritten, and films are kept by checkpoints.
+  // A device cannot be rewritten, and for films there are checkpoints.
   if (arguments_.write_every && !is_device(output_) && !is_film_file(output_)) {
     const auto write = [&](const Film& film, const Progress& progress) {
       write_picture(output_, film, progress.samples_finished, progress.seconds, origin_,
@@ -147,12 +147,12 @@ void RenderJob::warn_of_viewer() {
 RenderOptions RenderJob::render_options() {
   RenderOptions options;
   options.threads = arguments_.threads;
-  // A limit of 0 would mean no limit.
+  // At least a millisecond, as a limit of 0 means no limit.
   if (arguments_.time_limit > 0)
     options.time_limit = std::max(arguments_.time_limit - total_.seconds(), 1e-3);
   options.count_traversal = !arguments_.stats.empty();
   options.stop = &stop_requested();
-  // The first passes are short and may end before the library is loaded: they are not written.
+  // The first passes may end before the picture library is loaded: they are not written.
   options.on_pass = [&](const Film& film, const FilmSamples& samples, const Progress& progress) {
     const bool last = samples.to == scene_.render.samples;
     if (early_ && !last && picture_library_loaded()) early_->show(film, progress);
@@ -172,7 +172,7 @@ void RenderJob::trace() {
   if (!arguments_.quiet && can_redraw()) bar.emplace(goal);
   Heartbeat heartbeat(goal);
   options.on_progress = [&](const Progress& progress) {
-    // If the picture cannot be written, the render ends now: get() throws why.
+    // If the picture library failed to load, get() throws the reason and ends the render now.
     if (picture_library_loaded()) picture_library_.get();
     if (!saving_) saving_.emplace();
     warn_of_viewer();
@@ -201,7 +201,8 @@ ExitCode RenderJob::save() {
   return ending(interrupted);
 }
 
-// A picture in which some pixels have no sample is better than none, but not than an older one.
+// A picture in which some pixels have no sample is better than no picture, but it must not replace
+// an older one.
 bool RenderJob::nothing_to_save() const {
   std::error_code ignored;
   const bool replaces = fs::is_regular_file(output_, ignored);

@@ -23,8 +23,8 @@
 
 namespace pah::cli {
 
-// The stages are called in the order of their declaration. One that returns an exit code ends the
-// render with it. Each throws as run_render does.
+// Call the stages in the order of their declaration. If a stage returns an exit code, the render
+// ends with it. Each stage throws as run_render does.
 class RenderJob {
  public:
   // The arguments and hooks must outlive the job.
@@ -42,7 +42,7 @@ class RenderJob {
   [[nodiscard]] RenderOptions render_options();
   [[nodiscard]] bool picture_library_loaded() const;
   void warn_of_viewer();
-  // After an interrupt, whether there is less to save than the output holds already.
+  // After an interrupt: returns whether the picture is not worth saving, and says why.
   [[nodiscard]] bool nothing_to_save() const;
   void write_output();
   void write_stats();

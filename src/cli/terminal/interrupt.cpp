@@ -12,10 +12,10 @@ namespace {
 static_assert(std::atomic<bool>::is_always_lock_free);
 std::atomic<bool> saving{false};
 std::atomic<bool> stop{false};
-std::atomic<bool> came{false};
+std::atomic<bool> received{false};
 
 void on_signal(int) {
-  if (!saving || came.exchange(true)) ::_exit(static_cast<int>(ExitCode::interrupted));
+  if (!saving || received.exchange(true)) ::_exit(static_cast<int>(ExitCode::interrupted));
   stop = true;
 }
 
@@ -47,6 +47,6 @@ const std::atomic<bool>& stop_requested() { return stop; }
 
 void request_stop() { stop = true; }
 void withdraw_stop() { stop = false; }
-bool signaled() { return came; }
+bool signaled() { return received; }
 
 }  // namespace pah::cli

@@ -43,7 +43,7 @@ std::string format_error(const RenderResult& result) {
   if (!std::isfinite(relmse)) return "";
   const double percent = 100 * std::sqrt(relmse);
   if (percent < 0.01) return "error below 0.01 %";
-  // Errors fall with the square root of the number of samples.
+  // The error falls with the square root of the number of samples.
   return fmt::format(
       "error about {} % ({:.0f} samples would halve it)",
       percent < 9.95 ? fmt::format("{:.2g}", percent) : fmt::format("{:.0f}", percent),

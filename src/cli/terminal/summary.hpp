@@ -1,4 +1,4 @@
-// The last line of a render.
+// The last line that a render prints.
 #pragma once
 
 #include <filesystem>

@@ -14,7 +14,7 @@ constexpr std::string_view letters = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOP
 bool consists_of(std::string_view text, std::initializer_list<std::string_view> characters) {
   return !text.empty() && std::ranges::all_of(text, [&](char c) {
     return std::ranges::any_of(characters,
-                               [&](auto some) { return some.find(c) != std::string_view::npos; });
+                               [&](auto set) { return set.find(c) != std::string_view::npos; });
   });
 }
 
@@ -27,7 +27,7 @@ std::optional<std::uint16_t> parse_port(std::string_view text) {
 }
 
 // Parses ":PORT", or an empty text.
-bool parse_rest(std::string_view text, TevAddress& address) {
+bool parse_port_suffix(std::string_view text, TevAddress& address) {
   if (text.empty()) return true;
   const auto port = text[0] == ':' ? parse_port(text.substr(1)) : std::nullopt;
   address.port = port.value_or(0);
@@ -38,14 +38,14 @@ bool parse_rest(std::string_view text, TevAddress& address) {
 
 std::optional<TevAddress> parse_tev_address(std::string_view text) {
   TevAddress address;
-  std::string_view rest;
+  std::string_view suffix;
   if (text.starts_with('[')) {
     const std::size_t end = std::min(text.find(']'), text.size());
     address.host = text.substr(1, end - 1);
     // A link-local address has a zone: fe80::1%eth0.
     if (end == text.size() || !consists_of(address.host, {digits, letters, ":.%-_"}))
       return std::nullopt;
-    rest = text.substr(end + 1);
+    suffix = text.substr(end + 1);
   } else if (consists_of(text, {digits})) {
     const auto port = parse_port(text);
     if (!port) return std::nullopt;
@@ -54,9 +54,9 @@ std::optional<TevAddress> parse_tev_address(std::string_view text) {
     const std::size_t end = std::min(text.find(':'), text.size());
     if (end > 0) address.host = text.substr(0, end);
     if (text.empty() || !consists_of(address.host, {digits, letters, ".-_"})) return std::nullopt;
-    rest = text.substr(end);
+    suffix = text.substr(end);
   }
-  if (!parse_rest(rest, address)) return std::nullopt;
+  if (!parse_port_suffix(suffix, address)) return std::nullopt;
   return address;
 }
 

@@ -123,9 +123,9 @@ bool TevConnection::send(std::string_view bytes, const OutOfTime& out_of_time) {
 
 void TevConnection::finish(const OutOfTime& out_of_time) {
   if (::shutdown(socket_, SHUT_WR) != 0) throw failure(errno);
-  std::array<char, 256> said{};
+  std::array<char, 256> reply{};  // ignored
   while (wait_for(socket_, POLLIN, out_of_time)) {
-    const ssize_t count = ::recv(socket_, said.data(), said.size(), 0);
+    const ssize_t count = ::recv(socket_, reply.data(), reply.size(), 0);
     if (count < 0 && errno != EAGAIN && errno != EINTR) throw failure(errno);
     if (count == 0) {
       // The viewer may have hung up before it read everything.

@@ -86,9 +86,8 @@ std::string update_image_packet(const std::string& name, int x, int y, const Ima
   add_channels(packet);
   for (const int number : {x, y, pixels.width, pixels.height}) packet.add(number);
   constexpr auto count = static_cast<std::int64_t>(channels.size());
-  for (std::int64_t channel = 0; channel < count; ++channel)
-    packet.add(channel);                                                         // its first value
-  for (std::int64_t channel = 0; channel < count; ++channel) packet.add(count);  // to the next one
+  for (std::int64_t channel = 0; channel < count; ++channel) packet.add(channel);  // offset
+  for (std::int64_t channel = 0; channel < count; ++channel) packet.add(count);    // stride
   packet.add(pixels.pixels);
   return std::move(packet).bytes();
 }

@@ -1,7 +1,9 @@
 // The packets of the image viewer tev. Its source defines the protocol
 // (https://github.com/Tom94/tev: src/Ipc.cpp and include/tev/Ipc.h define the packets, src/main.cpp
-// their effect). All numbers are little-endian; a packet is u32 its length, itself included u8 its
-// type and what belongs to the type, where strings end with a 0, and flags are bytes.
+// their effect). All numbers are little-endian. A packet consists of
+//   - its length in bytes, including this number: u32
+//   - its type: u8
+//   - the fields of that type. Strings end with a 0; flags are bytes.
 #pragma once
 
 #include <pah/image/image.hpp>

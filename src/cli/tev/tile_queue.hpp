@@ -36,7 +36,7 @@ class TileQueue {
   mutable std::mutex mutex_;
   std::condition_variable changed_;
   std::deque<Place> order_;
-  std::map<Place, Image> waiting_;  // of each place in `order_`
+  std::map<Place, Image> waiting_;  // the pixels of each tile in `order_`
   bool closed_ = false;
 };
 

@@ -18,22 +18,22 @@
 namespace pah::cli {
 namespace {
 
-constexpr std::chrono::milliseconds between_looks(200);
+constexpr std::chrono::milliseconds poll_interval(200);
 
 // Stops the render when a file changes during its lifetime.
 class StopOnChange {
  public:
   explicit StopOnChange(const FileWatch& files)
-      : thread_([this, &files](const std::stop_token& ended) { look(files, ended); }) {}
+      : thread_([this, &files](const std::stop_token& ended) { poll(files, ended); }) {}
 
   [[nodiscard]] const std::atomic<bool>& changed() const { return changed_; }
 
  private:
-  void look(const FileWatch& files, const std::stop_token& ended) {
+  void poll(const FileWatch& files, const std::stop_token& ended) {
     std::mutex mutex;
     std::condition_variable_any wait;
     std::unique_lock lock(mutex);
-    while (!wait.wait_for(lock, ended, between_looks, [&] { return ended.stop_requested(); })) {
+    while (!wait.wait_for(lock, ended, poll_interval, [&] { return ended.stop_requested(); })) {
       if (!files.changed()) continue;
       changed_ = true;
       return request_stop();
@@ -62,10 +62,10 @@ void render_once(const RenderArguments& arguments, FileWatch& files, LoadedFiles
 
 // Waits a little longer, because editors may write a file in several steps.
 void wait_for_change(FileWatch& files) {
-  while (!files.changed()) std::this_thread::sleep_for(between_looks);
+  while (!files.changed()) std::this_thread::sleep_for(poll_interval);
   do {
     files.accept_changes();
-    std::this_thread::sleep_for(between_looks);
+    std::this_thread::sleep_for(poll_interval);
   } while (files.changed());
 }
 
