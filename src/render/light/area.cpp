@@ -12,7 +12,7 @@
 namespace pah {
 namespace {
 
-// The mean of all texels, also of those that no surface shows.
+// Returns the mean of all texels, including those that no surface shows.
 Vec3 mean_color(const Image& image) {
   DVec3 sum(0);
   for (const Vec3& pixel : image.pixels) sum += pixel;
@@ -55,15 +55,15 @@ void finish(AreaEmitter& emitter) {
   std::vector<double> areas;
   areas.reserve(emitter.triangles.size());
   for (const EmittingTriangle& triangle : emitter.triangles) {
-    areas.push_back(triangle.area);
-    emitter.area += triangle.area;
+    areas.push_back(triangle.surface_area);
+    emitter.surface_area += triangle.surface_area;
   }
-  if (emitter.area > 0) emitter.by_area = AliasTable(areas);
+  if (emitter.surface_area > 0) emitter.by_surface_area = AliasTable(areas);
 }
 
 std::optional<LightSample> sample(const AreaEmitter& emitter, const LitPoint& at,
                                   const LightNumbers& numbers) {
-  const EmittingTriangle& from = emitter.triangles[emitter.by_area.sample(numbers.choice)];
+  const EmittingTriangle& from = emitter.triangles[emitter.by_surface_area.sample(numbers.choice)];
   const Triangle& triangle = from.corners;
   const SphericalTriangle seen(triangle, at.position);
   const bool by_solid_angle = seen.sampled_by_solid_angle();
@@ -91,10 +91,11 @@ std::optional<LightSample> sample(const AreaEmitter& emitter, const LitPoint& at
   if (emitter.radiance.texture != no_texture)
     sample.radiance =
         emitter.textures->color(emitter.radiance, uv_at(*emitter.world, from.index, b));
-  sample.pdf = by_solid_angle
-                   ? static_cast<float>(from.area / (emitter.area * seen.solid_angle()))
-                   : static_cast<float>(static_cast<double>(distance2) /
-                                        (static_cast<double>(std::abs(cosine)) * emitter.area));
+  sample.pdf =
+      by_solid_angle
+          ? static_cast<float>(from.surface_area / (emitter.surface_area * seen.solid_angle()))
+          : static_cast<float>(static_cast<double>(distance2) /
+                               (static_cast<double>(std::abs(cosine)) * emitter.surface_area));
   sample.target = offset_point(point, -to_light);
   sample.target_error = end_error(triangle, point, at.position) / std::abs(cosine);
   sample.triangle = from.index;
@@ -122,7 +123,7 @@ LightBounds bounds(const AreaEmitter& emitter) {
   }
   result.cos_theta_e = 0;
   result.two_sided = emitter.two_sided;
-  result.intensity = emitter.mean_radiance * static_cast<float>(emitter.area);
+  result.intensity = emitter.mean_radiance * static_cast<float>(emitter.surface_area);
   return result;
 }
 
@@ -137,13 +138,13 @@ float pdf(const AreaEmitter& emitter, const LitPoint& at, std::uint32_t triangle
   const Triangle corners = emitter.world->triangles()[triangle];
   const SphericalTriangle seen(corners, at.position);
   if (seen.sampled_by_solid_angle()) {
-    return static_cast<float>(surface_area(corners) / (emitter.area * seen.solid_angle()));
+    return static_cast<float>(surface_area(corners) / (emitter.surface_area * seen.solid_angle()));
   }
   const Vec3 to_light = position - at.position;
   const float distance2 = glm::dot(to_light, to_light);
   const float cosine = std::abs(glm::dot(to_light, normal)) / std::sqrt(distance2);
   return static_cast<float>(static_cast<double>(distance2) /
-                            (static_cast<double>(cosine) * emitter.area));
+                            (static_cast<double>(cosine) * emitter.surface_area));
 }
 
 }  // namespace pah

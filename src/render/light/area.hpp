@@ -14,7 +14,7 @@ struct EmittingTriangle {
   Triangle corners;
   Vec3 normal{0};
   std::uint32_t index = 0;
-  double area = 0;
+  double surface_area = 0;
 };
 
 struct AreaEmitter {
@@ -23,9 +23,9 @@ struct AreaEmitter {
   ColorInput radiance{Vec3(0)};  // W/(m2 sr)
   float mean_radiance = 0;       // of the channels, and of the image
   bool two_sided = false;
-  double area = 0;  // 0: nothing emits
+  double surface_area = 0;  // 0: nothing emits
   std::vector<EmittingTriangle> triangles;
-  AliasTable by_area;
+  AliasTable by_surface_area;
 };
 
 // An emitter without triangles yet. World and textures must outlive it. Throws TextureError if its

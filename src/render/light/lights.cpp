@@ -74,7 +74,7 @@ Lights::Lights(const World& world, const TextureStore& textures) {
   for (std::size_t i = 0; i < emitters_.size(); ++i) {
     if (any_visible_at_infinity(emitters_[i])) visible_distant_.push_back(static_cast<LightId>(i));
     const auto* area_light = std::get_if<AreaEmitter>(&emitters_[i]);
-    any_visible_ = any_visible_ || (area_light != nullptr && area_light->area > 0);
+    any_visible_ = any_visible_ || (area_light != nullptr && area_light->surface_area > 0);
   }
   any_visible_ = any_visible_ || !visible_distant_.empty();
   sampler_ = make_sampler(emitters_);

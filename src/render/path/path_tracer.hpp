@@ -61,7 +61,7 @@ class PathTracer {
   Lights lights_;
   std::vector<std::uint8_t> masked_;  // per material: opacity is not simply 1
   bool any_masked_ = false;
-  bool textured_;               // some picture wants to know how much of it a ray sees
+  bool textured_;               // there are textures, which need the footprint of rays
   std::uint32_t keys_ = 1;      // of the sort by bundle
   std::size_t dimensions_ = 0;  // that a path may ask for at a surface
   bool count_traversal_;
