@@ -12,7 +12,7 @@ using pah::CurrentTemporaryFolder;
 
 namespace {
 
-// 2 x 1 pixels, of which the first has this red.
+// Writes a picture of 2 x 1 pixels, the first with the given red.
 void write_picture(const std::string& name, float red) {
   pah::Image image;
   image.width = 2;

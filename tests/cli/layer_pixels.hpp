@@ -5,7 +5,7 @@
 
 namespace pah::test {
 
-// Of all channels of an EXR file, those of layers included.
+// Returns the values of all channels of an EXR file, including its layers.
 [[nodiscard]] std::vector<float> layer_pixels(const std::string& file);
 
 }  // namespace pah::test

@@ -1,4 +1,4 @@
-// Pictures from parts that were rendered one by one.
+// Pictures merged from parts that were rendered separately.
 #include <algorithm>
 #include <cmath>
 #include <pah/image/image_file.hpp>
@@ -42,7 +42,7 @@ bool same_picture(const std::string& a, const std::string& b) {
   return pah::read_image(a).pixels == pah::read_image(b).pixels;
 }
 
-// Sums of features and squares may be rounded otherwise.
+// Sums of features and squares depend on the order of additions.
 bool nearly_same_layers(const std::string& a, const std::string& b) {
   const auto near = [](float x, float y) { return std::abs(x - y) <= 1e-6F * std::abs(y) + 1e-9F; };
   return std::ranges::equal(layer_pixels(a), layer_pixels(b), near);
@@ -129,7 +129,7 @@ TEST_CASE("Parts by crops and samples give the picture of the whole") {
     return words;
   };
   succeed(with_layers({"scene.yaml", "-o", "whole.exr", "--spp", "6"}));
-  // Three, of which one spans the picture; the last in two.
+  // Three crops: one as wide as the picture, and one in two parts.
   render_part("top.film", "0:6", with_layers({"--crop", "0,32,0,9"}));
   render_part("left.film", "0:6", with_layers({"--crop", "0,20,9,24"}));
   render_part("right_a.film", "0:2", with_layers({"--crop", "20,32,9,24"}));
@@ -137,7 +137,7 @@ TEST_CASE("Parts by crops and samples give the picture of the whole") {
   succeed({"merge", "right_b.film", "left.film", "top.film", "right_a.film", "-o", "merged.exr"});
   CHECK(same_picture("merged.exr", "whole.exr"));
   CHECK(nearly_same_layers("merged.exr", "whole.exr"));
-  // In steps: what was merged is one part.
+  // A merged file is a part itself.
   succeed({"merge", "right_a.film", "right_b.film", "-o", "right.film"});
   const Outcome bottom = run({"merge", "right.film", "left.film", "-o", "bottom.film"});
   CHECK(bottom.exit_code == 0);

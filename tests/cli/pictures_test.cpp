@@ -1,4 +1,4 @@
-// What reads and writes pictures is loaded when it is needed.
+// The picture library is loaded when it is first needed.
 #include <sys/wait.h>
 
 #include <cstdlib>

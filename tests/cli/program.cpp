@@ -125,7 +125,7 @@ bool Program::wait_for_error_text(const std::string& text) {
 }
 
 Outcome Program::wait() {
-  // A terminal that nobody reads would block the program.
+  // Reads the terminal to its end: a full one would block the program.
   while (terminal_ >= 0 && read_terminal()) {
   }
   int status = 0;

@@ -8,7 +8,7 @@
 
 namespace pah::test {
 
-// Sorted names in the current folder, without those of captured streams.
+// Returns the sorted names in the current folder, without the files of captured streams.
 [[nodiscard]] std::vector<std::string> files();
 
 void write_file(const std::string& name, const std::string& text);
@@ -20,7 +20,7 @@ struct Outcome {
   std::string out, err;
 };
 
-// A terminal that is dumb says so by TERM: it can only print.
+// A dumb terminal, by TERM=dumb, can only print.
 enum class ErrorStream { file, terminal, dumb_terminal, full, closed };
 
 // A running program. Its streams go to files in the current folder.
@@ -33,7 +33,8 @@ class Program {
   Program& operator=(const Program&) = delete;
 
   void signal(int number) const;
-  // False if it ended or 60 seconds passed without. The stream must be a terminal.
+  // Returns false if the program ends or 60 seconds pass without the text. The stream must be a
+  // terminal.
   [[nodiscard]] bool wait_for_error_text(const std::string& text);
   Outcome wait();
 
@@ -48,7 +49,7 @@ class Program {
 [[nodiscard]] Outcome run(const std::vector<std::string>& arguments,
                           ErrorStream stream = ErrorStream::file);
 
-// A box on a floor under a lamp: every kind of ray, little work.
+// A box on a floor under a lamp: has every kind of ray, and renders fast.
 extern const char* const small_scene;
 
 }  // namespace pah::test

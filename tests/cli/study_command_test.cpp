@@ -30,7 +30,7 @@ TEST_CASE("Study writes its tables and its report") {
   CHECK(report.find("| small |") != std::string::npos);
   CHECK(report.find("| knot | camera nearest |") != std::string::npos);
   CHECK(report.find("| small | shadow any |") != std::string::npos);
-  // Plots are there, or the report and the program say why not.
+  // Either there are plots, or the report and the program say why not.
   const bool plotted = std::filesystem::exists("made/here/cost.svg");
   CHECK((report.find("No plots") == std::string::npos) == plotted);
   CHECK((outcome.err.find("plots skipped") == std::string::npos) == plotted);

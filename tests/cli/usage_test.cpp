@@ -1,4 +1,4 @@
-// What the program says and how it ends where it does not get to render.
+// Messages and exit codes of a program that does not get to render.
 #include <sys/resource.h>
 
 #include <filesystem>
@@ -15,7 +15,7 @@ using Words = std::vector<std::string>;
 
 namespace {
 
-// The program failed: nothing on stdout, no file left behind.
+// Checks that the program fails, prints nothing on stdout and leaves no file behind.
 void check_failure(const Words& arguments, int exit_code, const std::string& message) {
   const auto before = files();
   const Outcome outcome = run(arguments);
@@ -187,7 +187,7 @@ TEST_CASE("Outputs that would overwrite one another or a device are refused") {
   CHECK(std::filesystem::is_symlink("null.tif"));
 }
 
-// Sanitizers take terabytes of addresses.
+// Sanitizers reserve terabytes of address space.
 #if defined(__has_feature)
 #if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
 #define PAH_UNLIMITED_ADDRESSES
@@ -196,7 +196,7 @@ TEST_CASE("Outputs that would overwrite one another or a device are refused") {
 #ifndef PAH_UNLIMITED_ADDRESSES
 namespace {
 
-// With so many bytes of addresses.
+// Runs the program with `bytes` of address space.
 Outcome run_within(rlim_t bytes, const Words& arguments) {
   rlimit before{};
   REQUIRE(::getrlimit(RLIMIT_AS, &before) == 0);
@@ -223,7 +223,7 @@ TEST_CASE("A film that exceeds the memory is refused with a plain message") {
                                     " GB of memory, and "));
   };
   check_needed("a.exr", "18.3");
-  check_needed("a.png", "10.7");  // has no room for layers
+  check_needed("a.png", "10.7");  // cannot hold layers
 }
 
 TEST_CASE("Too many threads for the memory end the program without an abort") {

@@ -1,4 +1,4 @@
-// Warnings: said, counted, and with --strict taken for errors.
+// Warnings are printed and counted, and are errors with --strict.
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
@@ -14,12 +14,12 @@ using Words = std::vector<std::string>;
 namespace {
 
 // A floor under a lamp at a height of 2.
-std::string lit_floor(const std::string& lamp, const std::string& more = "") {
+std::string lit_floor(const std::string& lamp, const std::string& settings = "") {
   return "film: {width: 16, height: 16}\nrender: {samples: 4, max_depth: 1}\n"
          "camera: {position: [0, 3, 0], look_at: [0, 0, 0], up: [0, 0, 1], fov: 30}\n"
          "meshes: [{shape: rectangle, size: [9, 9]}]\n"
          "lights: [{name: bulb, position: [0, 2, 0], " +
-         lamp + "}]\n" + more;
+         lamp + "}]\n" + settings;
 }
 
 const std::string bulb = "type: point, intensity: 1";
@@ -38,9 +38,9 @@ TEST_CASE("Warnings are counted, and are errors with --strict") {
   CHECK(contains(lenient.err, "warning: the scene has no light"));
   CHECK(warnings_in("a.json") == 1);
 
-  for (const Words& more : {Words{}, Words{"--quiet"}, Words{"--check"}}) {
+  for (const Words& options : {Words{}, Words{"--quiet"}, Words{"--check"}}) {
     Words words{"dark.yaml", "-o", "b.exr", "--strict"};
-    words.insert(words.end(), more.begin(), more.end());
+    words.insert(words.end(), options.begin(), options.end());
     const Outcome strict = run(words);
     CHECK(strict.exit_code == 3);
     CHECK(contains(strict.err, "error: the scene has no light"));
@@ -72,7 +72,7 @@ TEST_CASE("A picture that is too bright for its format says which exposure would
   const Outcome strict = run({"bright.yaml", "-o", "b.png", "--strict", "--quiet"});
   CHECK(strict.exit_code == 3);
   CHECK(contains(strict.err, "error: "));
-  CHECK(fs::exists("b.png"));  // it cost time to make
+  CHECK(fs::exists("b.png"));  // the warning comes after the render
 }
 
 TEST_CASE("Useless declared influence areas cause warnings") {

@@ -1,4 +1,4 @@
-// pahrender watch: pictures follow their files.
+// pahrender watch: pictures are rendered again when files change.
 #include <signal.h>
 
 #include <chrono>
@@ -38,7 +38,7 @@ bool wait_until(const Condition& condition) {
   return true;
 }
 
-// The file is replaced as a whole.
+// Safe while the program writes, as it replaces the file as a whole.
 bool shows(int width) { return fs::exists("out.exr") && pah::read_image("out.exr").width == width; }
 
 int end(Program& program) {

@@ -12,8 +12,8 @@ using namespace pah;
 
 namespace {
 
-// For every light and camera whose rays meet or are parallel: areas that overlap and cut triangles,
-// one with a near plane, one of next to no size, and what is derived.
+// Declares areas for every light and camera whose rays share a point or a direction: areas that
+// overlap and cut triangles, an area with a near plane, a tiny area and the derived areas.
 std::vector<LocalArea> many_areas(const Scene& scene, const World& world) {
   InfluenceSettings settings;
   const auto add_point = [&](const std::string& light, const DVec3& forward, const DVec2& fov,
@@ -74,7 +74,7 @@ Film render_few(const World& world, const Accelerator& accelerator, const Scene&
   return render(world, accelerator, film, settings, options).film;
 }
 
-// Every heuristic and split with every top level and some tolerances, or with one of these each.
+// Returns every heuristic and split, with every top level and some tolerances or with one of these.
 std::vector<LocalConfig> configs(bool all) {
   std::vector<TopLevelConfig> top_levels{{.kind = TopLevelKind::none}};
   for (const TopLevelKind kind : {TopLevelKind::list, TopLevelKind::octree})
@@ -109,7 +109,7 @@ void check_pictures(const std::string& name, const std::vector<LocalConfig>& con
     CHECK(differing_pixels(film, expected) == 0);
     CHECK(film.features.size() == film.pixels.size());
     CHECK(film.features == expected.features);
-    // They were asked, and could answer for rays that do not leave them.
+    // Checks that the areas were used and answered rays that do not leave them.
     std::uint64_t asked = 0, answered = 0;
     for (const LocalBvhUse& use : local->uses()) {
       asked += use.asked;
@@ -121,7 +121,7 @@ void check_pictures(const std::string& name, const std::vector<LocalConfig>& con
     if (top_level.kind == TopLevelKind::none) asked_of_bundles = asked;
     if (top_level.direction_tolerance > 3) most_asked = asked;
   }
-  // A top level finds areas for rays that have no bundle; "lamps" has direct light only.
+  // A top level finds areas for rays without a bundle; "lamps" has direct light only.
   if (asked_of_bundles > 0 && name != "lamps") CHECK(most_asked > asked_of_bundles);
 }
 
@@ -150,7 +150,7 @@ TEST_CASE("Influence areas change no pixel of the example scenes, however they a
     const World world = make_world(scene);
     const std::vector<LocalArea> areas = many_areas(scene, world);
     const Film expected = render_few(world, *make_global_bvh(world.triangles()), scene);
-    // All areas of scenes of many lights would take an hour.
+    // With many lights, building all areas would take an hour.
     constexpr std::size_t most_areas = 24;
     const std::span<const LocalArea> some(areas.data(), std::min(areas.size(), most_areas));
     for (const LocalConfig& config : configs(false)) {

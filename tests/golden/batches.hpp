@@ -1,8 +1,8 @@
-// A picture as the mean of independent renders, with the spread between them.
+// A picture as the mean of independent renders, with the variance between them.
 //
 // The samples of one pixel of one render come from a scrambled low-discrepancy sequence: they are
-// not independent, and their spread says too much about the error of their mean. Renders with
-// different seeds are independent, so the spread between such batches is honest.
+// not independent, and their variance overestimates the error of their mean. Renders with different
+// seeds are independent, so the variance between such batches is unbiased.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// Neither the number of threads nor the accelerator changes a pixel.
+// Tests that neither the number of threads nor the accelerator changes a pixel.
 #include <tbb/global_control.h>
 
 #include <pah/render/render.hpp>

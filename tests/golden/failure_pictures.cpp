@@ -8,7 +8,7 @@
 namespace pah::golden {
 namespace {
 
-// Gray by the logarithm of p, down to the level.
+// Returns a gray value by the logarithm of p, black at the level.
 Vec3 shade(double p, double level) {
   if (p < level) return {1, 0, 0};
   return Vec3(static_cast<float>(1 - std::log(p) / std::log(level)));

@@ -1,4 +1,4 @@
-// What to look at when a picture differs from its reference.
+// Pictures that help to find out why a picture differs from its reference.
 #pragma once
 
 #include <filesystem>

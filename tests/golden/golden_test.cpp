@@ -1,4 +1,4 @@
-// Pictures against their references. See golden/README.md.
+// Compares pictures with their references. See golden/README.md.
 #include <fmt/format.h>
 
 #include <filesystem>
@@ -14,18 +14,18 @@ namespace {
 
 constexpr std::uint64_t test_seed = 1;
 
-// Enough to see what is wrong. A change of albedo by one percent is seen in most scenes; what the
-// Cornell box shows is indirect light, whose noise hides it.
+// Enough to detect a change of albedo by one percent in most scenes. In the Cornell box the noise
+// of indirect light hides it.
 constexpr int few_batches = 4;
-// Enough for one percent to stand out from the noise everywhere.
+// Enough to detect a change by one percent in every scene.
 int many_batches(const std::string& name) { return name == "cornell" ? 16 : few_batches; }
 
-// Sanitizers cost too much time for all of them.
+// With sanitizers, all scenes would take too long.
 const std::vector<std::string> scenes(golden::scene_names.begin(),
                                       PAH_GOLDEN_FIRST_ONLY ? golden::scene_names.begin() + 1
                                                             : golden::scene_names.end());
 
-// Everything that reflects, times `factor`.
+// Multiplies all reflectances by `factor`.
 void scale_albedo(Scene& scene, float factor) {
   struct Scale {
     float factor;

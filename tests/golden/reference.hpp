@@ -15,7 +15,7 @@ inline constexpr std::array scene_names{"lamps",        "cornell",         "colu
                                         "coated",       "glass_and_metal", "textured", "thin_lens",
                                         "orthographic", "scattered"};
 
-// Seeds of the references; other pictures take others.
+// The seeds of the references; other pictures use other seeds.
 inline constexpr std::uint64_t reference_seed = 1'000'000;
 inline constexpr int reference_batches = 64;  // of 256 samples each, as the scenes say
 

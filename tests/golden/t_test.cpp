@@ -40,8 +40,8 @@ double incomplete_beta(double x, double a, double b) {
   return 1 - factor * beta_fraction(1 - x, b, a) / b;
 }
 
-// Radiance is a product of a few dozen floats at most, each rounded: compilers and mathematical
-// libraries may differ by that much in pixels that have no noise at all.
+// Radiance is a product of a few dozen rounded floats at most. Compilers and mathematical libraries
+// may differ by this much in pixels without noise.
 constexpr double rounding = 32.0 * std::numeric_limits<float>::epsilon() / 2;
 
 double p_of_channel(double reference, double reference_variance, int reference_count,

@@ -1,4 +1,4 @@
-// Whether two pictures differ by more than chance, pixel by pixel.
+// Tests for each pixel whether two pictures differ by more than chance.
 #pragma once
 
 #include <vector>
@@ -7,7 +7,7 @@
 
 namespace pah::golden {
 
-// The chance that |T| >= |t|, where T follows Student's distribution.
+// Returns the probability that |T| >= |t|, where T follows Student's distribution.
 [[nodiscard]] double two_sided_p(double t, double degrees_of_freedom);
 
 // The level for each of `tests` independent tests, so that the chance of any false alarm among them
@@ -21,14 +21,14 @@ struct Comparison {
   double passed = 0;      // share of the pixels
 };
 
-// Student's test with pooled variance for each channel of each pixel, alpha 0.01 over all of them.
-// Batches of both pictures must have as many samples each: if nothing has changed, all of them are
-// draws from one distribution, and the reference's many tell the spread of the picture's few.
-// Pictures must be of one size.
+// Student's test with pooled variance for each channel of each pixel, at level 0.01 for all of them
+// together. All batches must have the same number of samples: if nothing has changed, they are
+// draws from one distribution, and the many batches of the reference give the variance of the few
+// batches of the picture. Both pictures must have the same size.
 [[nodiscard]] Comparison compare(const Batches& reference, const Batches& picture);
 
-// What must pass. At the Sidak level all do, but for one picture in a hundred; the rest is room
-// for rare bright paths, which the normal distribution of the means does not know.
+// The share of pixels that must pass. At the Sidak level all pixels pass in 99 of 100 pictures. The
+// margin is for rare bright paths, with which means are not normally distributed.
 inline constexpr double passing_share = 0.9975;
 
 }  // namespace pah::golden

@@ -1,4 +1,4 @@
-// The test itself, tested: known values, its false alarms and its power.
+// Tests the statistical test itself: known values, false alarms and power.
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -15,7 +15,8 @@ namespace {
 
 constexpr int width = 64, height = 48;
 
-// A picture of `mean`, with normal noise of standard deviation `deviation` in each batch.
+// Returns a picture with the given mean and normal noise of standard deviation `deviation` in each
+// batch.
 Batches noisy_picture(double mean, double deviation, int count, unsigned seed) {
   std::mt19937 generator(seed);
   std::normal_distribution<double> standard;

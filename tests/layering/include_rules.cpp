@@ -17,13 +17,14 @@ const std::map<std::string, int, std::less<>> ranks{
     {"bvh", 2},    {"light_space", 3}, {"accel", 4},     {"scene", 5},
     {"render", 6}, {"load", 6},        {"report", 7},    {"cli", 8}};
 
-// A folder of a module: either a folder below the module's own, or the own one.
+// A floor is the folder of a module or a folder within it.
 struct Floor {
   std::string_view name;
   std::vector<std::string_view> below;   // the floors of the module that it may include
   std::vector<std::string_view> unseen;  // prefixes of includes from other modules that it may not
 };
-// A module's own folder needs an entry only if it stands on other floors. All other folders do.
+// Every folder within a module needs an entry. A module's own folder needs one only if it includes
+// other floors.
 const std::vector<Floor> floors{
     {"image/picture", {}, {}},
     {"image", {"image/picture"}, {}},
@@ -67,7 +68,7 @@ const std::vector<Floor> floors{
     {"cli/watch", {"cli/terminal", "cli/render"}, {}},
     {"cli/pictures", {}, {}},
 };
-// Every floor of a module may include its public headers, but for those that open one floor.
+// Every floor of a module may include its public headers, except those that belong to one floor.
 const std::map<std::string, std::string, std::less<>> floors_of_headers{
     {"render/film_file.hpp", "render/film"},    {"render/render.hpp", "render/path"},
     {"render/session.hpp", "render/path"},      {"render/acceleration.hpp", "render/plan"},
@@ -121,13 +122,13 @@ bool starts_with_any(std::string_view text, const std::vector<std::string_view>&
   return std::ranges::any_of(prefixes, [&](auto prefix) { return text.starts_with(prefix); });
 }
 
-// Where a file stands.
+// The module and floor of a file.
 struct Place {
   std::string module;
   std::string floor;  // "load/yaml"; empty for a public header that belongs to no floor
 };
 
-// Of "load/yaml/tree.hpp", say.
+// Returns the place of a path such as "load/yaml/tree.hpp".
 Place place_of(const std::string& path, bool is_public) {
   const std::string module = path.substr(0, path.find('/'));
   const auto header = floors_of_headers.find(path);
@@ -135,13 +136,13 @@ Place place_of(const std::string& path, bool is_public) {
   return {module, is_public ? "" : fs::path(path).parent_path().generic_string()};
 }
 
-// Null for what has no entry.
+// Returns null if there is no entry.
 const Floor* find_floor(std::string_view name) {
   const auto floor = std::ranges::find(floors, name, &Floor::name);
   return floor == floors.end() ? nullptr : &*floor;
 }
 
-// What is wrong with `include`, of something at `to`, in a file at `from`; empty if nothing.
+// Returns why a file at `from` must not include `include`, a file at `to`; empty if it may.
 std::string fault_between(const Place& from, const Place& to, const Include& include) {
   const auto rank = ranks.find(to.module);
   if (rank == ranks.end()) return "no module " + to.module;
@@ -160,7 +161,7 @@ std::string fault_between(const Place& from, const Place& to, const Include& inc
   return name(from) + " must not include " + name(to);
 }
 
-// What is wrong with `include` in `file`, which stands at `from`; empty if nothing.
+// Returns why `file`, at `from`, must not include `include`; empty if it may.
 std::string fault(const std::string& file, const Place& from, const Include& include) {
   std::string_view target = include.target;
   const bool is_public = file.starts_with("include/");
@@ -187,7 +188,7 @@ std::string fault(const std::string& file, const Place& from, const Include& inc
   return "unknown third party " + include.target;
 }
 
-// `top` is the folder of all modules that the file is in.
+// `top` is the folder above the modules: include/pah or src.
 void check_file(const fs::path& root, const fs::path& top, const fs::path& path,
                 std::vector<std::string>& faults) {
   const std::string file = path.lexically_relative(root).generic_string();

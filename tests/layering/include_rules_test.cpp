@@ -11,7 +11,7 @@ using pah::test::broken_include_rules;
 
 namespace {
 
-// A made-up tree of files.
+// A tree of source files for a test.
 class Tree {
  public:
   explicit Tree(const std::map<std::string, std::string>& files) {

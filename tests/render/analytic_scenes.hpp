@@ -1,4 +1,4 @@
-// Small scenes with known answers, and the statistics to judge them by.
+// Small scenes with known radiance, and statistics for comparing renders with it.
 #pragma once
 
 #include <algorithm>
@@ -13,13 +13,13 @@ namespace pah::test {
 
 inline constexpr double pi = std::numbers::pi;
 
-// A scene under construction, in a unit of length: `scale` and `offset` apply to all that is added.
+// Builds a scene. `scale` and `offset` are applied to everything that is added.
 class SceneBuilder {
  public:
   explicit SceneBuilder(double scale = 1, DVec3 offset = DVec3(0))
       : scale_(scale), offset_(offset) {
     scene.materials.push_back({"black", DiffuseMaterial{{Vec3(0), no_texture}}});
-    // All that a film can keep is to be compared.
+    // The film keeps all layers, so that tests can compare them.
     scene.film.albedo = scene.film.normal = scene.film.depth = true;
   }
 
@@ -63,7 +63,7 @@ class SceneBuilder {
     scene.camera = camera;
   }
 
-  // Sees a square of the given side, far too small for anything to vary over it if that is tiny.
+  // Makes the camera see a square of the given side. Over a tiny square nothing varies.
   void look_parallel(DVec3 position, DVec3 look_at, double height, DVec3 up = DVec3(0, 0, -1)) {
     OrthographicCamera camera;
     camera.position = place(position);
@@ -124,20 +124,20 @@ inline Estimate estimate(const Film& film) {
 
 inline Estimate estimate(const Scene& scene) { return estimate(render_scene(scene).film); }
 
-// How far an estimate is from a known value, in its own sigmas; rounding of the float arithmetic
-// that every sample goes through comes on top.
+// Returns the distance of an estimate from a known value, in units of its sigma. Allows for the
+// rounding of float arithmetic in every sample.
 inline double sigmas_off(const Estimate& e, double expected) {
   const double tolerance = e.sigma + 1e-6 * expected;
   return tolerance > 0 ? std::abs(e.mean - expected) / tolerance : e.mean > 0 ? 1e9 : 0;
 }
 
-// The two-sided p-value of Welch's test at these sample sizes, where t is normal.
+// Returns the two-sided p-value of Welch's test for large samples, where t is normal.
 inline double welch_p(const Estimate& a, const Estimate& b) {
   const double sigma = std::sqrt(a.sigma * a.sigma + b.sigma * b.sigma);
   return std::erfc(std::abs(a.mean - b.mean) / sigma / std::numbers::sqrt2);
 }
 
-// But for depths, which the scale of a scene changes.
+// Compares everything except depths, which change with the scale of a scene.
 inline bool identical(const Film& a, const Film& b) {
   if (a.pixels.size() != b.pixels.size() || a.features.size() != b.features.size()) return false;
   for (std::size_t i = 0; i < a.pixels.size(); ++i) {

@@ -76,7 +76,7 @@ ChiSquare goodness_of_fit(const std::vector<double>& observed,
       pooled_observed += observed[i];
     }
   }
-  // Even a pool that expects almost nothing must not receive many points.
+  // A pool that expects almost no points must still not receive many.
   if (pooled_expected > 0 || pooled_observed > 0)
     add(std::max(pooled_expected, 1.0), pooled_observed);
   result.degrees = std::max(1, cells - 1);
@@ -93,7 +93,7 @@ ChiSquare chi_square(const Domain& domain, const PointSampler& sample, const Poi
   const double tolerance = 0.01 / count;
   for (int i = 0; i < rows; ++i) {
     for (int j = 0; j < columns; ++j) {
-      // Parts to begin with, lest a narrow peak is overlooked between the nodes.
+      // Starts with several parts, so that a narrow peak between the nodes is not missed.
       double sum = 0;
       const DVec2 corner = domain.min + cell * DVec2{i, j};
       for (int k = 0; k < 16; ++k) {

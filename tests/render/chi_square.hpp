@@ -1,4 +1,4 @@
-// Pearson's chi-square test of a sampler against the density that it claims.
+// Pearson's chi-square test of a sampler against its stated density.
 #pragma once
 
 #include <functional>
@@ -24,18 +24,19 @@ struct ChiSquare {
   double integral = 0;  // of the density over the domain
 };
 
-// Compares counts with what is expected of each cell; cells that expect fewer than 5 are pooled.
+// Compares the count of each cell with its expected count. Cells that expect fewer than 5 points
+// are pooled.
 ChiSquare goodness_of_fit(const std::vector<double>& observed, const std::vector<double>& expected);
 
-// A rectangle in which points are drawn, and the density per its area.
+// A rectangle in which points are drawn, and their density per surface area.
 struct Domain {
   DVec2 min, max;
 };
 using PointSampler = std::function<std::optional<DVec2>(Rng&)>;
 using PointDensity = std::function<double(const DVec2&)>;
 
-// Uses 10 x 20 cells. Points that the sampler does not deliver have a cell of their own, which
-// expects what the density's integral lacks.
+// Uses 10 x 20 cells, and a further cell for samples without a point. That cell expects 1 minus the
+// integral of the density.
 ChiSquare chi_square(const Domain& domain, const PointSampler& sample, const PointDensity& density,
                      int count, Rng& rng);
 
@@ -45,7 +46,8 @@ using DirectionDensity = std::function<double(const Vec3&)>;
 ChiSquare chi_square_sphere(const DirectionSampler& sample, const DirectionDensity& density,
                             int count, Rng& rng);
 
-// The bound under which the smallest of `tests` p-values falls with a chance of 1 % (Sidak).
+// Returns the bound below which the smallest of `tests` p-values falls with probability 1 %
+// (Sidak).
 double sidak_level(int tests);
 
 }  // namespace pah::test

@@ -27,7 +27,7 @@ TEST_CASE("Rays that an area answers cost what its BVH costs") {
   Scene scene = test::floor_below();
   scene.lights.push_back({"bulb", PointLight{DVec3(0, 3, 0), Vec3(10)}});
   const std::vector<AreaRayCosts> costs = costs_of(scene);
-  // One node and a block of two triangles, in whatever BVH.
+  // In either BVH a ray costs one node and a block of two triangles.
   const double each = double{box_cost} + double{triangle_cost};
   std::uint64_t to_bulb = 0;
   for (std::size_t i = 0; i + 1 < costs.size(); ++i) to_bulb += costs[i].rays;
@@ -43,7 +43,7 @@ TEST_CASE("Rays that an area answers cost what its BVH costs") {
 TEST_CASE("Rays that an area cannot answer cost what both BVHs cost") {
   Scene scene = test::floor_below();
   scene.lights.push_back({"sun", DirectionalLight{{0, -1, 0}, Vec3(1), 0}});
-  // Where the area does not reach.
+  // A floor that the area does not reach.
   scene.meshes.push_back(scene.meshes.front());
   scene.instances.emplace_back().mesh = 1;
   scene.instances.back().world_from_object[3] = DVec3(0, 10, 0);

@@ -1,4 +1,4 @@
-// Five nodes whose numbers can be worked out on paper.
+// A tree of five nodes whose measures are computed by hand.
 #pragma once
 
 #include <pah/bvh/binary_tree.hpp>

@@ -1,4 +1,4 @@
-// Influence areas as lines.
+// Tests influence areas drawn as lines.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -33,7 +33,7 @@ bool are_equal(const std::vector<double>& a, const std::vector<double>& b) {
   return std::ranges::equal(a, b, [](double x, double y) { return std::abs(x - y) < 1e-5; });
 }
 
-// How many positions are so far along a direction, and so far from its axis.
+// Counts the positions at a given distance along a direction and from its axis.
 std::ptrdiff_t count_at(const LineSet& lines, const DVec3& from, const DVec3& direction,
                         double depth, double radius) {
   return std::ranges::count_if(lines.positions, [&](const Vec3& position) {

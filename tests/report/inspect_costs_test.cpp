@@ -1,4 +1,4 @@
-// What rays cost, and its colors.
+// Tests the costs of rays and their false colors.
 #include <numeric>
 #include <pah/accel/accelerator.hpp>
 
@@ -13,7 +13,7 @@ using namespace pah;
 
 namespace {
 
-// As defined for encoded values: what Green's scheme is even in.
+// The brightness of encoded values, which grows evenly in Green's scheme.
 double brightness(const Vec3& color) {
   const auto encoded = [&](int channel) {
     return srgb_from_linear(static_cast<double>(color[channel]));

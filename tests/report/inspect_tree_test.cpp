@@ -1,4 +1,4 @@
-// Numbers of a tree made by hand.
+// Tests the measures of a tree made by hand.
 #include <pah/bvh/analyze.hpp>
 #include <pah/bvh/build_config.hpp>
 
@@ -105,14 +105,14 @@ TEST_CASE("How siblings overlap as rays see them depends on where the rays run")
     return seen_overlaps(
         tree, make_plane_area(DVec3(2, 1, 1) - 10.0 * direction, direction, DVec2(20), 30));
   };
-  // 1 of 4 is common to the root's children; those of its left child only touch.
+  // The root's children share 1 of 4; those of its left child only touch.
   const SeenOverlap across = seen_along(DVec3(0, 1, 0));
   REQUIRE(across.levels.size() == 3);
   CHECK(across.levels[0] == Approx(0.25));
   CHECK(across.levels[1] == Approx(0).margin(1e-12));
   CHECK(across.levels[2] == 0);
   CHECK(across.all == Approx(0.125));
-  // Along the row of boxes all are behind one another.
+  // For rays along the row, all boxes are behind one another.
   const SeenOverlap along = seen_along(DVec3(1, 0, 0));
   CHECK(along.levels[0] == Approx(1));
   CHECK(along.all == Approx(1));

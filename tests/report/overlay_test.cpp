@@ -1,4 +1,4 @@
-// Lines over pictures: where they are, what hides them, and what they leave alone.
+// Tests lines drawn over pictures: their positions, and the surfaces that hide them.
 #include "report/inspect/pictures/overlay.hpp"
 
 #include <algorithm>
@@ -50,13 +50,13 @@ struct Drawn {
       count += before.pixels[i] != after.pixels[i] ? 1 : 0;
     return count;
   }
-  // How much of a pixel is the red of the line.
+  // Returns the coverage of a pixel by the red line.
   [[nodiscard]] float share(int x, int y) const {
     return (before.at(x, y).g - after.at(x, y).g) / before.at(x, y).g;
   }
 };
 
-// A red line between two points of the scene, as an area's.
+// Returns a red line between two points of the scene.
 Drawn draw(const Scene& scene, const DVec3& from, const DVec3& to) {
   const World world = make_world(scene);
   const Acceleration acceleration = make_acceleration(world, scene, "bvh");
@@ -122,7 +122,7 @@ TEST_CASE("A line is drawn where the camera sees it, and nothing else is") {
       for (int x = 0; x < width; ++x) {
         INFO(x << ", " << y);
         if (x >= 30 && x < 40) {
-          // 1.6 pixels wide: all of a row, and 0.3 of its neighbors.
+          // The line is 1.6 pixels wide: it covers all of a row, and 0.3 of its neighbors.
           const float share = y == 11 ? 1.0F : y == 10 || y == 12 ? 0.3F : 0.0F;
           CHECK(drawn.share(x, y) == Approx(share).margin(1e-3));
         } else if (x < 29 || x > 40) {
@@ -133,7 +133,7 @@ TEST_CASE("A line is drawn where the camera sees it, and nothing else is") {
 }
 
 TEST_CASE("A line that goes into the picture is hidden from the wall on") {
-  // It meets the wall at x = 1: 3 pixels right of the middle by perspective.
+  // The line meets the wall at x = 1: 3 pixels right of the middle by perspective.
   const Drawn drawn = draw(wall(true), DVec3(0, 0, 1), DVec3(3, 0, -2));
   const double scale = height / 2.0;
   const auto row = height / 2;
@@ -192,7 +192,7 @@ TEST_CASE("What is behind the camera is not drawn") {
     CHECK(draw(scene, DVec3(-1, 0.3, 5), DVec3(1, 0.3, 5)).changed() == 0);
     CHECK(draw(scene, DVec3(0, 0, 4.5), DVec3(2, 1, 9)).changed() == 0);
   }
-  // One that passes the camera on its right leaves the picture there, and comes from nowhere else.
+  // A line that passes the camera on its right leaves the picture there and appears nowhere else.
   const Drawn passing = draw(wall(true), DVec3(0.5, 0, 2), DVec3(0.5, 0, 6));
   CHECK(passing.is_changed(width - 1, height / 2));
   for (int x = 0; x < width / 2; ++x) CHECK_FALSE(passing.is_changed(x, height / 2));

@@ -1,4 +1,4 @@
-// Predicted costs of local BVHs are what rays cost.
+// Tests that rays cost what local BVHs predict.
 #include <cmath>
 #include <pah/accel/local_bvhs.hpp>
 
@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::uint32_t lamp = 0;
 
-// Triangles without area: rays meet their boxes but never hit them, so none ends early.
+// Triangles without surface area: rays meet their boxes but never hit them, so no ray ends early.
 test::Soup slivers(std::uint32_t count, float length) {
   test::Soup soup;
   test::Random random(11);
@@ -26,7 +26,7 @@ test::Soup slivers(std::uint32_t count, float length) {
   return soup;
 }
 
-// The bundle's rays, away by a hair from where their region begins and ends.
+// The bundle's rays, shortened slightly at both ends of the region.
 std::vector<Ray> rays_within(const InfluenceArea& area, std::uint64_t count) {
   std::vector<Ray> rays;
   for (const BundleRay& drawn : draw_rays(area, count, 17)) {
@@ -59,7 +59,7 @@ void check_near(const Sample& measured, double predicted) {
         4 * measured.standard_error() + 1e-4 * measured.mean());
 }
 
-// A point area with a near plane is no study area.
+// The study has no point area with a near plane.
 std::vector<StudyArea> areas_within(const Aabb& bounds) {
   std::vector<StudyArea> areas = study_areas(bounds, false);
   areas.push_back(
@@ -80,7 +80,7 @@ TEST_CASE("Rays that hit nothing cost what is predicted, within four standard er
       LocalConfig config;
       config.heuristic = heuristic;
       const auto local = make_local_bvhs(soup.triangles(), {{area.area, lamp}}, config);
-      // One by one, to know what each costs.
+      // Traced one by one, to get the cost of each ray.
       Sample own, global;
       LocalBvhUse before;
       TraversalCounts counts;
@@ -93,7 +93,7 @@ TEST_CASE("Rays that hit nothing cost what is predicted, within four standard er
         if (use.sampled > before.sampled) global.add(use.global_cost - before.global_cost);
         before = use;
       }
-      // All but those that start outside by the rounding of their origin.
+      // All rays except those whose rounded origin is outside.
       CHECK(own.count > 19'500);
       CHECK(global.count > 200);
       check_near(own, local->reports().front().predicted_cost);

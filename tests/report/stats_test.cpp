@@ -1,4 +1,4 @@
-// What --stats tells of grids.
+// Tests the grids in the output of --stats.
 #include "report/stats.hpp"
 
 #include <algorithm>
@@ -32,7 +32,7 @@ const std::vector<std::string> keys{"light",
                                     "entries",
                                     "longest_list"};
 
-// The only one, with its keys checked.
+// Returns the JSON of a single grid, with its keys checked.
 Json grid_of(const GridReport& grid) {
   RenderReport report;
   report.light_grids = {grid};
@@ -44,7 +44,7 @@ Json grid_of(const GridReport& grid) {
   return grids[0];
 }
 
-// Names of those that are null.
+// Returns the names of the keys that are null.
 std::vector<std::string> unknown_of(const GridReport& grid) {
   const Json json = grid_of(grid);
   std::vector<std::string> names;

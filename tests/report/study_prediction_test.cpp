@@ -45,7 +45,7 @@ TEST_CASE("The cost of one leaf is known, and predicted exactly") {
                              count_closest(site.on(leaf, config), site.rays)}) {
     CHECK(tally.rays == 20'000);
     CHECK(tally.mean() == Approx(3 * double{triangle_cost}));
-    // A quarter of the rays meet it, but for five standard deviations.
+    // A quarter of the rays meet it, within five standard deviations.
     CHECK(std::abs(static_cast<double>(tally.met) / 20'000 - 0.25) < 5 * std::sqrt(0.1875 / 2e4));
   }
   CHECK(count_closest(site.on(leaf, config), site.rays).hits ==
@@ -73,9 +73,9 @@ TEST_CASE("PAH predicts what rays cost, within four standard errors") {
   }
 }
 
-// The thesis's 5.4.2 knows the picture plane's area only.
+// The thesis's 5.4.2 measures in the picture plane only.
 TEST_CASE("Solid angle predicts what an isotropic light's rays cost, the picture plane does not") {
-  // Much of the mesh is about the axis, where such rays are dense, and little in the corners.
+  // Most of the mesh is near the axis, where such rays are dense, and little is in the corners.
   test::Soup soup = test::random_soup(300, 0.2F, Vec3{0}, 3);
   for (const float x : {-4.5F, 4.5F})
     for (const float z : {-4.5F, 4.5F}) soup.add({x, 0, z}, {x + 0.1F, 0, z}, {x, 0, z + 0.1F});

@@ -54,7 +54,7 @@ std::vector<std::string> lines_of(const std::string& text) {
   return lines;
 }
 
-// Misses every triangle of an even index, and never finds a ray occluded.
+// Misses every triangle with an even index, and reports no ray as occluded.
 class Liar final : public Accelerator {
  public:
   explicit Liar(const Triangles& triangles) : truth_(make_global_bvh(triangles)) {}
@@ -97,7 +97,7 @@ TEST_CASE("Rates have a row a repetition, and accelerators of ours answer alike"
       CHECK(row.mismatches == 0);
     }
   }
-  // By turns.
+  // Accelerators take turns.
   CHECK(results.rates[0].accelerator == "bvh");
   CHECK(results.rates[1].accelerator == "local");
   CHECK(results.rates[2].accelerator == "light");
@@ -147,7 +147,7 @@ TEST_CASE("Grids answer most shadow rays of a study to points and suns") {
       return row.ray_kind == kind && row.accelerator == accelerator;
     });
   };
-  // A cell looked up counts as a node.
+  // A look-up of a cell counts as a node.
   CHECK(*row_of("shadow to a point or sun", "light").nodes_per_ray < 1.1);
   CHECK(*row_of("shadow to a point or sun", "bvh").nodes_per_ray > 2);
   CHECK(row_of("shadow any", "light").bytes > row_of("shadow any", "bvh").bytes);
@@ -199,7 +199,7 @@ TEST_CASE("Rays are recorded by their kind, also of a lens") {
     const auto bvh = make_global_bvh(scene.world.triangles());
     const RecordedRays rays = rays_of(scene, *bvh);
     const DVec3 eye = std::get<PerspectiveCamera>(scene.world.camera).position;
-    // Of 12 tiles with a ray a pixel, 1024 each: as many as have 2000 rays.
+    // Of 12 tiles with 1024 rays each, as many are recorded as have 2000 rays.
     CHECK(rays.camera.ends.size() == 2);
     for (const Ray& ray : rays.camera.rays)
       CHECK(glm::distance(DVec3(ray.origin), eye) < aperture_radius + 1e-4);
@@ -210,7 +210,7 @@ TEST_CASE("Rays are recorded by their kind, also of a lens") {
     CHECK(!rays.bounce.rays.empty());
     CHECK(!rays.shadow.rays.empty());
     for (const Ray& ray : rays.shadow.rays) CHECK(ray.bundle < scene.world.lights.size());
-    // The same for the same seed.
+    // The same seed gives the same rays.
     const RecordedRays again = rays_of(scene, *bvh);
     CHECK(again.shadow.rays.size() == rays.shadow.rays.size());
     CHECK(again.shadow.rays.back().origin == rays.shadow.rays.back().origin);

@@ -25,7 +25,7 @@ StudyResults small_study(std::uint64_t seed) {
   return run_study(meshes, config);
 }
 
-// Of a line without quotes.
+// Counts the columns of a line without quotes.
 std::size_t columns(const std::string& line) {
   return 1 + static_cast<std::size_t>(std::count(line.begin(), line.end(), ','));
 }
@@ -39,7 +39,7 @@ void check_table(const std::string& csv, const std::string& first_line, std::siz
   std::size_t wrong = 0;
   while (std::getline(lines, line)) {
     ++found;
-    // Quoted cells go, commas and all.
+    // Removes quoted cells with their commas.
     std::string plain;
     bool quoted = false;
     for (const char c : line) {

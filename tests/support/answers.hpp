@@ -1,4 +1,4 @@
-// What an accelerator answers, compared to the last bit.
+// The answers of an accelerator, for comparisons to the last bit.
 #pragma once
 
 #include <bit>

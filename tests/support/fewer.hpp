@@ -14,8 +14,8 @@ inline constexpr bool sanitized = true;
 inline constexpr bool sanitized = false;
 #endif
 
-// How many samples to take: under sanitizers an eighth, which goes the same ways through the code.
-// Only for what is judged by its own standard deviation, or holds for each sample.
+// Returns the number of samples to take: under sanitizers an eighth, which runs the same code. Only
+// for tests that use the standard deviation of their samples, or that check each sample.
 constexpr int fewer_if_sanitized(int count) { return sanitized ? count / 8 : count; }
 
 }  // namespace pah::test

@@ -1,4 +1,4 @@
-// What tests ask of meshes.
+// Checks of meshes for tests.
 #pragma once
 
 #include <array>
@@ -12,7 +12,7 @@ using Point = std::array<float, 3>;
 
 inline Point point_of(const Vec3& p) { return {p.x, p.y, p.z}; }
 
-// How often each directed edge occurs, vertices being the same where their positions are.
+// Counts each directed edge; vertices with the same position are the same.
 inline std::map<std::pair<Point, Point>, int> edges_of(const Mesh& mesh) {
   std::map<std::pair<Point, Point>, int> edges;
   for (const UVec3& t : mesh.triangles)
@@ -21,7 +21,7 @@ inline std::map<std::pair<Point, Point>, int> edges_of(const Mesh& mesh) {
   return edges;
 }
 
-// Every edge is shared by exactly two triangles, which run along it in opposite directions.
+// Returns whether every edge is shared by exactly two triangles of opposite direction.
 inline bool is_closed(const Mesh& mesh) {
   const auto edges = edges_of(mesh);
   for (const auto& [edge, count] : edges) {
@@ -40,7 +40,7 @@ inline double area_of(const Mesh& mesh) {
   return area;
 }
 
-// Of what a closed mesh encloses; negative if it is inside out.
+// Returns the volume of a closed mesh; negative if it is inside out.
 inline double volume_of(const Mesh& mesh) {
   double volume = 0;
   for (const UVec3& t : mesh.triangles) {

@@ -1,4 +1,4 @@
-// Damage to files, for tests that every input is read or refused.
+// Damages files, for tests that every input is read or refused.
 #pragma once
 
 #include <algorithm>
@@ -8,8 +8,8 @@
 
 namespace pah {
 
-// One to three changes: a byte replaced, some left out, repeated or put in. `spice` are characters
-// that mean something in the format.
+// Makes one to three changes: replaces a byte, or removes, repeats or inserts some. `spice` holds
+// characters that have a meaning in the format.
 inline std::string mutated(std::string bytes, std::mt19937& random, std::string_view spice) {
   for (unsigned n = 1 + random() % 3; n-- > 0;) {
     if (bytes.empty()) bytes = spice;

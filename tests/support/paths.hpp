@@ -1,5 +1,5 @@
-// Places that only the build knows. Compiled once, so that the tests' own objects are the same in
-// every checkout.
+// Paths that the build defines. They are compiled once, so that the objects of the tests are the
+// same in every checkout.
 #pragma once
 
 #include <filesystem>

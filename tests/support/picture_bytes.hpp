@@ -1,4 +1,4 @@
-// Small pictures as bytes, and damaged ones.
+// Small picture files as bytes, valid and damaged.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@ inline std::string big_endian(std::uint32_t value) {
   return bytes;
 }
 
-// Of 24 bits, rows from the top, as many pixels as `bgr` has.
+// Returns a 24-bit picture with the pixels in `bgr`, rows from the top.
 inline std::string tga(unsigned width, unsigned height, std::string_view bgr) {
   std::string bytes(18, '\0');
   bytes[2] = 2;
@@ -36,7 +36,7 @@ inline std::string png_chunk(const std::string& type, std::string_view data) {
          big_endian(~sum);
 }
 
-// 8-bit gray or RGB that claims a size, over `idat`.
+// Returns an 8-bit gray or RGB picture that claims the given size, with the data `idat`.
 inline std::string png(std::uint32_t width, std::uint32_t height, bool color, std::string_view idat,
                        std::string_view before_idat = "") {
   const std::string header = big_endian(width) + big_endian(height) + std::string("\x08", 1) +

@@ -38,7 +38,7 @@ class Random {
   std::mt19937 engine_;
 };
 
-// A point of a triangle: anywhere, on an edge, or a vertex.
+// Returns a point of a triangle: inside, on an edge, or a vertex.
 inline Vec3 point_on(const Triangle& t, Random& random) {
   float u = random.uniform(0, 1), v = random.uniform(0, 1) * (1 - u);
   switch (random.below(4)) {
@@ -70,7 +70,7 @@ inline Soup random_soup(std::uint32_t count, float size, const Vec3& center, std
   return soup;
 }
 
-// A height field of shared vertices; flat if `height` is 0.
+// Returns a height field with shared vertices; flat if `height` is 0.
 inline Soup grid(std::uint32_t cells, float height, std::uint32_t seed) {
   Soup soup;
   soup.name = height == 0 ? "flat grid" : "height field";

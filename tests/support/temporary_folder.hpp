@@ -1,4 +1,4 @@
-// A folder of its own for a test, removed with all that is in it.
+// A folder for a single test, removed with its contents.
 #pragma once
 
 #include <unistd.h>
@@ -33,7 +33,7 @@ class TemporaryFolder {
   std::filesystem::path path_;
 };
 
-// One that is the current folder as long as it lives.
+// A temporary folder that is the current folder during its lifetime.
 class CurrentTemporaryFolder {
  public:
   CurrentTemporaryFolder() { std::filesystem::current_path(folder_.path()); }

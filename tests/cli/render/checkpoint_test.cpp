@@ -1,4 +1,4 @@
-// Renders that end before they are finished, and go on later.
+// Renders that are stopped and resumed.
 #include <signal.h>
 
 #include <chrono>
@@ -27,7 +27,7 @@ Words operator+(Words words, const Words& more) {
   return words;
 }
 
-// With all layers.
+// Arguments that request all layers.
 const Words layers{"-D", "film.channels=[albedo,normal,depth,variance]"};
 
 void render(const Words& arguments) {
@@ -36,12 +36,12 @@ void render(const Words& arguments) {
   REQUIRE(outcome.exit_code == 0);
 }
 
-// Files also tell the seconds.
+// Compares pixels only, as the metadata contain the render time.
 bool identical(const std::string& a, const std::string& b) {
   return layer_pixels(a) == layer_pixels(b);
 }
 
-// Leaves a checkpoint and a picture.
+// Interrupts a render, which leaves a checkpoint and a picture.
 Outcome interrupt(const Words& arguments) {
   Program program(arguments, ErrorStream::terminal);
   REQUIRE(program.wait_for_error_text("samples"));
@@ -67,10 +67,10 @@ void check_refused(const Words& arguments, const std::string& why) {
   CHECK(untouched);
 }
 
-// Milliseconds. Under sanitizers the program takes longer to start.
+// In milliseconds. Under sanitizers the program takes longer to start.
 constexpr unsigned latest_kill = pah::test::sanitized ? 2000 : 300;
 
-// Kills a render at random moments until it gets to its end. Returns how often.
+// Kills a render at random moments until it gets to its end. Returns the number of kills.
 int render_with_kills(const Words& arguments, int most, std::mt19937& random) {
   int kills = 0;
   for (; kills < most; ++kills) {

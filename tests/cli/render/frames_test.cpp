@@ -18,8 +18,8 @@ using Words = std::vector<std::string>;
 
 namespace {
 
-// The small scene, animated by -D.
-Words frames(const std::string& range, const Words& rest) {
+// Returns arguments that animate the small scene by -D.
+Words frames(const std::string& range, const Words& options) {
   Words words{"scene.yaml",
               "--frames",
               range,
@@ -31,7 +31,7 @@ Words frames(const std::string& range, const Words& rest) {
               "film.exposure=frame / 8",
               "-D",
               "camera.fov=30 + 4 * time"};
-  words.insert(words.end(), rest.begin(), rest.end());
+  words.insert(words.end(), options.begin(), options.end());
   return words;
 }
 
@@ -117,7 +117,7 @@ TEST_CASE("Frames of other settings are rendered again") {
     return all;
   };
   CHECK(is_kept(with({"--threads", "1", "--accel", "bvh"})));
-  CHECK_FALSE(is_kept(replaced(words, "4", "5")));    // samples: fewer of them is a part
+  CHECK_FALSE(is_kept(replaced(words, "4", "5")));    // samples
   CHECK_FALSE(is_kept(replaced(words, "16", "20")));  // width
   if (pah::test::sanitized) return;
   CHECK_FALSE(is_kept(with({"--exposure", "1"})));

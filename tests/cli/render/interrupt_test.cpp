@@ -1,4 +1,4 @@
-// Ctrl-C, SIGTERM, and the progress bar, which tells when there is something to interrupt.
+// Ctrl-C, SIGTERM, and the progress bar.
 #include <signal.h>
 
 #include <chrono>
@@ -41,7 +41,7 @@ TEST_CASE("A second signal ends the program at once") {
   write_file("scene.yaml", small_scene);
   Program program(endless, ErrorStream::terminal);
   REQUIRE(program.wait_for_error_text("samples"));
-  // Two of a kind could become one.
+  // Two equal signals could be delivered as one.
   program.signal(SIGINT);
   program.signal(SIGTERM);
   const Outcome outcome = program.wait();
@@ -66,7 +66,7 @@ TEST_CASE("The progress bar shows on a terminal only, and not if asked to be qui
 
 TEST_CASE("An interrupt before every pixel has a sample leaves an old picture as it was") {
   const CurrentTemporaryFolder folder;
-  // A pass takes long: the picture is large and full of glass.
+  // A pass takes long, as the picture is large and full of glass.
   write_file("scene.yaml",
              "film: {width: 2048, height: 2048}\nrender: {samples: 1000, max_depth: 64}\n"
              "materials: {g: {type: glass}}\n"
@@ -90,7 +90,7 @@ TEST_CASE("An interrupt before anything is rendered ends the program at once") {
   write_file("scene.yaml", "meshes: [{shape: box}]\n");
   write_file("out.exr", "an old picture");
   for (const int number : {SIGINT, SIGTERM}) {
-    // The film alone takes longer to make.
+    // The signal comes before the first sample: allocating this film alone takes longer.
     Program program({"scene.yaml", "-o", "out.exr", "--width", "4096", "--height", "4096"},
                     ErrorStream::terminal);
     REQUIRE(program.wait_for_error_text("the scene has no light"));

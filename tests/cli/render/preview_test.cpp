@@ -1,4 +1,4 @@
-// --preview: the same view, small and rough.
+// --preview: a small picture with few samples.
 #include "cli/render/preview.hpp"
 
 #include <nlohmann/json.hpp>

@@ -1,4 +1,4 @@
-// What is said while a render goes on.
+// Progress bars and heartbeats of a running render.
 #include "cli/terminal/progress.hpp"
 
 #include "catch.hpp"
@@ -11,7 +11,7 @@ using namespace pah::test;
 
 namespace {
 
-// A quarter of 64 samples, after 5 of 20 seconds.
+// A quarter of 64 samples is done after 5 of 20 seconds.
 const Progress quarter{0.25, 5, 10'000'000, 16};
 
 }  // namespace

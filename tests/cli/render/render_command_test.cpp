@@ -19,7 +19,7 @@ using nlohmann::json;
 
 namespace {
 
-// With --quiet: nothing may be said.
+// Renders with --quiet and checks that nothing is printed.
 void render(Words arguments) {
   arguments.emplace_back("--quiet");
   const Outcome outcome = run(arguments);
@@ -31,7 +31,7 @@ void render(Words arguments) {
 
 json read_json(const std::string& name) { return json::parse(read_file(name)); }
 
-// EXR files hold the film's floats as they are.
+// Compares pixels bit by bit: EXR files hold the film's floats without rounding.
 bool identical(const std::string& a, const std::string& b) {
   const pah::Image image = pah::read_image(a);
   const pah::Image other = pah::read_image(b);
@@ -296,7 +296,7 @@ TEST_CASE("A declared influence area is built and measured, and left out by --ac
   CHECK(local["memory_bytes"]["local_bvhs"] > 0);
   CHECK(local["memory_bytes"]["top_level"] > 0);
   const json& areas = local["influence_areas"];
-  REQUIRE(areas.size() == 7);  // that one, all sides of the bulb but the upper, and the camera's
+  REQUIRE(areas.size() == 7);  // the declared one, five sides of the bulb and the camera's
   const json& built = areas[0];
   CHECK(built["name"] == "bulb");
   CHECK(built["type"] == "point");

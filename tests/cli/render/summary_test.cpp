@@ -11,7 +11,8 @@ using namespace pah::cli;
 
 namespace {
 
-// Pixels of the given numbers of samples, which spread by `spread` about 1, every other one above.
+// Returns pixels with the given numbers of samples. The samples alternate between 1 + spread and
+// 1 - spread.
 RenderResult picture(const std::vector<int>& samples, double spread) {
   RenderResult result;
   result.film.rect = {0, static_cast<int>(samples.size()), 0, 1};
@@ -37,7 +38,7 @@ RenderResult complete(RenderResult result) {
 }  // namespace
 
 TEST_CASE("The last line tells size, samples, seconds, rays a second and the error") {
-  // A relative variance of 0.25 / 64, about, so an error of 1/16.
+  // The relative variance is about 0.25 / 64, and so the error is 1/16.
   CHECK(summary_of("out.png", complete(picture({64, 64, 64}, 0.5)), 64, 12.3) ==
         "wrote out.png: 3 x 1, 64 samples, 12 s, 3.0 Mrays/s, "
         "error about 6.3 % (256 samples would halve it)\n");
@@ -46,7 +47,7 @@ TEST_CASE("The last line tells size, samples, seconds, rays a second and the err
 TEST_CASE("One sample gives no estimate of the error") {
   CHECK(summary_of("out.png", complete(picture({1, 1}, 0.5)), 1, 0.5) ==
         "wrote out.png: 2 x 1, 1 samples, 0.5 s, 3.0 Mrays/s\n");
-  // A few pixels do not speak for all.
+  // Some pixels have two samples, but not all.
   CHECK(format_error(picture({2, 1}, 0.5)).empty());
 }
 
@@ -64,7 +65,7 @@ TEST_CASE("An unfinished pass counts by the mean of its samples") {
   CHECK(format_samples(picture({0, 0, 1}, 0.5), 64) == "0.33 of 64");
   CHECK(format_samples(complete(picture({64, 64}, 0.5)), 64) == "64");
   CHECK(format_error(picture({12, 12, 14}, 0.5)).ends_with("(51 samples would halve it)"));
-  // Some were not finite, and left out.
+  // Some samples were not finite and are left out.
   RenderResult faulty = picture({11, 12}, 0.5);
   faulty.samples = 12;
   CHECK(format_samples(faulty, 64) == "12 of 64");

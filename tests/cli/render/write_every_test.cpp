@@ -1,4 +1,4 @@
-// --write-every: what those see who look at a picture while it is rendered.
+// --write-every: the picture file while the render runs.
 #include <OpenImageIO/imageio.h>
 #include <signal.h>
 #include <sys/stat.h>
@@ -22,7 +22,7 @@ using Clock = std::chrono::steady_clock;
 
 namespace {
 
-// Passes over this take some hundredths of a second.
+// Returns arguments of an endless render whose passes take some hundredths of a second.
 Words endless(const std::string& output) {
   write_file("scene.yaml", small_scene);
   return {"scene.yaml", "-o",         output,    "--width",       "160",
@@ -40,11 +40,11 @@ bool wait_until(const Condition& condition) {
 }
 
 struct Seen {
-  int samples = 0;  // by the metadata, of formats that keep them
+  int samples = 0;  // from the metadata, if the format has them
   std::vector<float> pixels;
 };
 
-// None if it is not a whole file.
+// Returns none if the file is incomplete.
 std::optional<Seen> look_at(const std::string& file) {
   const auto input = OIIO::ImageInput::open(file);
   if (!input) return std::nullopt;
@@ -123,7 +123,7 @@ TEST_CASE(
   REQUIRE(wait_until([&] { return fs::exists("pictures/out.exr"); }));
   fs::rename("pictures", "elsewhere");
   REQUIRE(program.wait_for_error_text("warning: cannot write pictures/out.exr: "));
-  std::this_thread::sleep_for(std::chrono::milliseconds(500));  // more fail
+  std::this_thread::sleep_for(std::chrono::milliseconds(500));  // more writes fail
   SECTION("if it can be written at the end, all is well") {
     fs::rename("elsewhere", "pictures");
     program.signal(SIGINT);
@@ -152,5 +152,5 @@ TEST_CASE("A pipe gets the finished picture only") {
   CHECK(outcome.exit_code == 0);
   CHECK(fs::is_fifo("out.png"));
   const std::string ends("IEND");
-  CHECK(bytes.find(ends) == bytes.size() - ends.size() - 4);  // a checksum
+  CHECK(bytes.find(ends) == bytes.size() - ends.size() - 4);  // followed by a checksum
 }

@@ -1,4 +1,4 @@
-// When a picture that is still rendered is written.
+// The times at which unfinished pictures are written.
 #include "cli/render/write_schedule.hpp"
 
 #include "catch.hpp"

@@ -19,7 +19,7 @@ void require(bool condition, const std::string& what) {
   if (!condition) throw std::runtime_error(what);
 }
 
-// Takes values off a packet.
+// Reads the values of a packet one after the other.
 class Reader {
  public:
   explicit Reader(std::string_view bytes) : bytes_(bytes) {}
@@ -98,7 +98,7 @@ void read_update(Reader& reader, ListenedPicture& picture) {
       return values[static_cast<std::size_t>(offsets[c] + i * strides[c])];
     };
     picture.image.pixels[place] = {value(0), value(1), value(2)};
-    picture.told[place] = true;
+    picture.updated[place] = true;
   }
   ++picture.updates;
 }
@@ -111,7 +111,7 @@ sockaddr_in loopback(int port) {
   return address;
 }
 
-// Returns its port.
+// Returns the port.
 int bind_to_free_port(int socket) {
   sockaddr_in address = loopback(0);
   socklen_t size = sizeof(address);
@@ -151,7 +151,7 @@ void TevPictures::take(std::string_view packet) {
 
 TevListener::TevListener(Listening listening) : listening_(listening) {
   socket_ = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
-  // What connections begin with.
+  // Accepted connections inherit this buffer size.
   const int room = 1024;
   if (listening == Listening::nothing)
     ::setsockopt(socket_, SOL_SOCKET, SO_RCVBUF, &room, sizeof(room));

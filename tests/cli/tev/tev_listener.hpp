@@ -1,4 +1,4 @@
-// Listens as the image viewer tev does, and takes every message at its word.
+// Listens as the image viewer tev does, and checks every packet.
 #pragma once
 
 #include <atomic>
@@ -14,18 +14,18 @@
 
 namespace pah::test {
 
-// What a viewer shows.
+// A picture as the viewer shows it.
 struct ListenedPicture {
   Image image;
-  std::vector<bool> told;  // of each pixel
+  std::vector<bool> updated;  // whether each pixel was updated
   int updates = 0;
 };
 
-// What came of one packet after the other.
+// The pictures that a sequence of packets results in.
 class TevPictures {
  public:
-  // Throws std::runtime_error, which says what is wrong, for a packet that makes no sense, or none
-  // in what came before. `packet` is as long as its first bytes say.
+  // Throws std::runtime_error with the reason if the packet is malformed or does not fit the
+  // packets before. `packet` must be as long as its first bytes say.
   void take(std::string_view packet);
 
   [[nodiscard]] const std::map<std::string, ListenedPicture>& pictures() const { return pictures_; }
@@ -39,10 +39,10 @@ class TevPictures {
 enum class Listening {
   all,
   first_packet,  // then hangs up
-  nothing,       // lets connect, and reads nothing, with little room for what is sent
+  nothing,       // accepts connections but reads nothing, with a small receive buffer
 };
 
-// On a free port of the loopback address. Connections are listened to one after the other.
+// Listens on a free port of the loopback address. Serves one connection after the other.
 class TevListener {
  public:
   explicit TevListener(Listening listening = Listening::all);
@@ -53,16 +53,16 @@ class TevListener {
   [[nodiscard]] int port() const { return port_; }
   [[nodiscard]] std::string address() const;
 
-  // Of all connections so far.
+  // Counts and pictures are of all connections so far.
   [[nodiscard]] TevPictures pictures() const;
   [[nodiscard]] int connections() const;
-  // What was wrong with what came; empty if nothing was.
+  // Returns what was wrong with a packet; empty if there was no error.
   [[nodiscard]] std::string fault() const;
 
  private:
   void run();
   void serve(int connection);
-  // Takes whole packets off the bytes; false if this is enough.
+  // Removes complete packets from the front of the bytes. Returns false if no more are wanted.
   bool take_packets(std::string& bytes);
 
   Listening listening_;
@@ -76,7 +76,7 @@ class TevListener {
   std::thread thread_;
 };
 
-// A port that nothing listens on.
+// Returns a port that nothing listens on.
 [[nodiscard]] int free_port();
 
 }  // namespace pah::test

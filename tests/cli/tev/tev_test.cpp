@@ -1,4 +1,4 @@
-// --tev: what a viewer is told of the picture under way.
+// --tev: the unfinished picture in a viewer.
 #include <signal.h>
 
 #include <algorithm>
@@ -41,15 +41,15 @@ bool wait_until(const Condition& condition) {
   return true;
 }
 
-// Five samples take four passes, of six tiles each.
-Words small_render(const std::string& output, const Words& more) {
+// Five samples take four passes of six tiles each.
+Words small_render(const std::string& output, const Words& options) {
   write_file("scene.yaml", small_scene);
   Words words{"scene.yaml", "-o", output, "--width", "70", "--height", "50"};
-  words.insert(words.end(), more.begin(), more.end());
+  words.insert(words.end(), options.begin(), options.end());
   return words;
 }
 
-// The only one.
+// Returns the picture, and checks that there is only one.
 ListenedPicture shown(const TevListener& listener, const std::string& name) {
   CHECK(listener.fault().empty());
   const auto pictures = listener.pictures().pictures();
@@ -97,7 +97,7 @@ TevAddress address_of(const TevListener& listener) {
 
 }  // namespace
 
-TEST_CASE("tev shows in the end the picture that is written, to the last bit") {
+TEST_CASE("The viewer shows in the end the picture that is written, to the last bit") {
   const CurrentTemporaryFolder folder;
   const TevListener listener;
   const Outcome outcome =
@@ -113,7 +113,7 @@ TEST_CASE("tev shows in the end the picture that is written, to the last bit") {
   CHECK(files() == Words{"out.exr", "scene.yaml"});
 }
 
-TEST_CASE("tev shows a crop where it is in the picture") {
+TEST_CASE("The viewer shows a crop where it is in the picture") {
   const CurrentTemporaryFolder folder;
   const TevListener listener;
   fs::create_directory("there");
@@ -124,7 +124,7 @@ TEST_CASE("tev shows a crop where it is in the picture") {
   CHECK(picture.image.width == 70);
   CHECK(picture.image.height == 50);
   CHECK(part(picture.image, {11, 59, 7, 44}).pixels == pah::read_image("there/out.exr").pixels);
-  CHECK(std::ranges::count(picture.told, true) == 48 * 37);
+  CHECK(std::ranges::count(picture.updated, true) == 48 * 37);
 }
 
 TEST_CASE("The picture is the same with a viewer and without") {
@@ -137,16 +137,16 @@ TEST_CASE("The picture is the same with a viewer and without") {
   CHECK(shown(listener, "with.film").updates >= 6);
 }
 
-TEST_CASE("tev shows the film from which a render continues") {
+TEST_CASE("The viewer shows the film from which a render continues") {
   const CurrentTemporaryFolder folder;
   const TevListener listener;
-  const Words more{"--checkpoint", "100", "--tev", listener.address(), "--quiet"};
-  Words first = small_render("out.exr", more);
+  const Words options{"--checkpoint", "100", "--tev", listener.address(), "--quiet"};
+  Words first = small_render("out.exr", options);
   first.insert(first.end(), {"--time-limit", "0.000001", "--spp", "5"});
   REQUIRE(run(first).exit_code == 0);
   REQUIRE(fs::exists("out.exr.film"));
-  // Nothing is left to render.
-  Words second = small_render("out.exr", more);
+  // The resumed render has no samples left to render.
+  Words second = small_render("out.exr", options);
   second.insert(second.end(), {"--resume", "--spp", "1"});
   REQUIRE(run(second).exit_code == 0);
   CHECK(listener.connections() == 2);
@@ -237,7 +237,7 @@ TEST_CASE("Tiles are sent to tev as they are finished") {
   CHECK(listener.fault().empty());
 }
 
-TEST_CASE("tev shows what watch renders") {
+TEST_CASE("The viewer shows what watch renders") {
   const CurrentTemporaryFolder folder;
   const TevListener listener;
   Words words = small_render("out.exr", {"--tev", listener.address()});

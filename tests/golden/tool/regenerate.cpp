@@ -1,4 +1,4 @@
-// Renders the reference pictures anew: all of them, or those named on the command line.
+// Renders the reference pictures again: all, or those named on the command line.
 
 #include <fmt/format.h>
 

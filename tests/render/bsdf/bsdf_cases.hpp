@@ -1,4 +1,4 @@
-// BSDFs and viewing directions that the tests of BSDFs go through.
+// The BSDFs and viewing directions for tests.
 #pragma once
 
 #include <string>
@@ -13,11 +13,11 @@ struct BsdfCase {
   Bsdf bsdf;
 };
 
-// White where the model allows it: energy shows.
+// White if the model allows it, so that gained or lost energy shows.
 std::vector<BsdfCase> rough_bsdfs();
 std::vector<BsdfCase> smooth_bsdfs();
 
-// A unit vector; from inside if cos_theta < 0.
+// Returns a unit vector; it points inside if cos_theta < 0.
 Vec3 direction(float cos_theta, float phi);
 
 }  // namespace pah::test

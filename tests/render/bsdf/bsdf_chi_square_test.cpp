@@ -1,4 +1,4 @@
-// Every BSDF draws the directions whose density it states.
+// Tests that BSDFs draw directions with the density that they state.
 #include <algorithm>
 
 #include "bsdf_cases.hpp"
@@ -12,7 +12,7 @@ using namespace pah::test;
 
 namespace {
 
-// Grazing, oblique and near the normal; from outside and from inside.
+// Directions near grazing, oblique and near the normal, from outside and from inside.
 constexpr float cosines[] = {0.95F, 0.5F, 0.02F, -0.7F, -0.3F};
 
 ChiSquare test_bsdf(const Bsdf& bsdf, const Vec3& wo, double pdf_factor, int count, Rng& rng) {

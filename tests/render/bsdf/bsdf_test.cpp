@@ -29,12 +29,12 @@ double index_of_side(const Bsdf& bsdf, const Vec3& w) {
   return glass && w.z < 0 ? static_cast<double>(glass->eta) : 1.0;
 }
 
-// The share of a uniform field that comes back to wo: 1 if nothing is absorbed. A uniform field
-// has radiance n^2 where the index is n.
+// Returns the share of a uniform field that is scattered to wo: 1 if nothing is absorbed. A uniform
+// field has radiance n^2 in a medium of index n.
 double furnace(const Bsdf& bsdf, const Vec3& wo, int count, Rng& rng, int channel = 0) {
   double sum = 0;
   for (int i = 0; i < count; ++i) {
-    // Stratified, so that a few samples tell.
+    // Stratified, so that few samples suffice.
     const float u = (static_cast<float>(i) + 0.5F) / static_cast<float>(count);
     const std::optional<BsdfSample> drawn = sample(bsdf, wo, u, uniform2(rng));
     if (!drawn) continue;
@@ -119,8 +119,8 @@ TEST_CASE("No BSDF returns more light than it receives") {
 }
 
 TEST_CASE("Light lost by single scattering is reported") {
-  // A white conductor and a white dielectric: what is missing from 1 is what a facet hands to
-  // another facet.
+  // For a white conductor and a white dielectric, the difference to 1 is the light that one facet
+  // passes to another.
   Rng rng(4);
   std::printf("share of light lost by single-scatter GGX, white metal | glass 1.5\n");
   std::printf("roughness      cos 1.0     cos 0.5     cos 0.1\n");
@@ -207,8 +207,8 @@ TEST_CASE("No direction, however grazing, gives anything but finite numbers") {
           REQUIRE(std::isfinite(drawn->pdf));
           REQUIRE(drawn->pdf >= 0);
           REQUIRE(glm::length(drawn->wi) == Approx(1).margin(1e-5));
-          // A weight is bounded: no fireflies from the surface itself. Light that leaves the denser
-          // side is concentrated, by no more than the squared index.
+          // Weights are bounded, so that surfaces cause no fireflies. Light that leaves the denser
+          // side is concentrated by at most the squared index.
           REQUIRE(largest(drawn->weight) < 7);
         }
         const float other = i % 2 == 0 ? cos_theta : 2 * uniform(rng) - 1;

@@ -10,7 +10,7 @@ using namespace pah;
 
 namespace {
 
-// Textures that are constant: a checkerboard of one color.
+// Returns constant textures: checkerboards of one color.
 TextureStore constants(std::initializer_list<Vec3> colors) {
   std::vector<Texture> textures;
   for (const Vec3& color : colors) textures.emplace_back(CheckerTexture{color, color, {1, 1}});
@@ -28,7 +28,7 @@ TEST_CASE("Materials resolve to their BSDFs") {
   const TextureStore textures = constants({{0.5F, 0.25F, 2}, {0.1F, 0.6F, 0.9F}});
   const auto diffuse = std::get<DiffuseBsdf>(resolve(DiffuseMaterial{{Vec3{0.5F}, 0}}, textures));
   CHECK(diffuse.reflectance == Vec3{0.25F, 0.125F, 1});
-  // What a texture holds beyond 1 would make light.
+  // Texture values above 1 are clamped, as they would create light.
   CHECK(albedo(resolve(MirrorMaterial{{Vec3{1}, 0}}, textures)) == Vec3{0.5F, 0.25F, 1});
 
   const auto metal =
@@ -54,7 +54,7 @@ TEST_CASE("Very small roughness counts as smooth") {
   CHECK(alpha(0, 1.5F) == 0);
   CHECK(alpha(0.02F, 1.5F) == 0);
   CHECK(alpha(0.1F, 1.5F) == Approx(0.01));
-  // The closer the indices, the less is left of the half vector.
+  // The closer the indices, the shorter the half vector.
   CHECK(alpha(0.1F, 1.01F) == 0);
   CHECK(alpha(1, 1) == 0);
   CHECK(ggx_alpha(0.02F) == 0);

@@ -46,7 +46,7 @@ TEST_CASE("Means and variances of pixels are right") {
   CHECK(normal_of(film).at(0, 0) == Vec3(0, 1, 0));
   CHECK(depth_of(film).at(0, 0) == Vec3(5));
   CHECK(depth_of(film).at(1, 0) == Vec3(0));
-  // The samples' variance is 7, that of their mean a third of it.
+  // The variance of the samples is 7, that of their mean a third of it.
   CHECK(variance_of(film).at(0, 0).x == Approx(7.0 / 3));
   CHECK(variance_of(film).at(0, 0).y == Approx(28.0 / 3));
   CHECK(variance_of(film).at(1, 0) == Vec3(0));
@@ -64,7 +64,7 @@ TEST_CASE("A part of a film has the same means, where the film is a part itself"
 }
 
 TEST_CASE("The error lies within its predicted interval") {
-  // Pixels of many brightnesses and of skewed noise; the truth is known.
+  // Pixels have many brightnesses, skewed noise and known means.
   std::mt19937 random(7);
   for (const int samples : {4, 16, 64}) {
     int covered = 0;
@@ -105,7 +105,7 @@ TEST_CASE("An unknown error is infinite") {
 
 namespace {
 
-// The mean of `count` samples of a constant, off by how much of it.
+// Returns the relative error of the mean of `count` samples of a constant.
 double drift_of(float constant, int count) {
   FilmPixel pixel;
   for (int i = 0; i < count; ++i) add(pixel, DVec3(constant));
@@ -117,7 +117,7 @@ double drift_of(float constant, int count) {
 TEST_CASE("A sum of many samples does not drift") {
   for (const float constant : {0.1F, 0.5F, 1e-20F, 3e7F})
     CHECK(drift_of(constant, 3'000'000) < 1e-15);
-  // Nor does it depend on their order.
+  // The sum does not depend on the order of the samples.
   std::mt19937 random(1);
   std::vector<float> samples;
   for (int i = 0; i < 10'000; ++i)

@@ -1,4 +1,4 @@
-// The samplers of lights against their densities, and the choice among many.
+// Tests samplers of lights against their densities, and the choice among many lights.
 #include <algorithm>
 #include <functional>
 #include <random>
@@ -44,7 +44,9 @@ TEST_CASE("Spherical triangles are sampled uniformly in solid angle") {
     const SphericalTriangle seen(t, Vec3(0));
     const double omega = seen.solid_angle();
     REQUIRE(seen.sampled_by_solid_angle());
-    // Cells: the triangle split four ways, four times. Each child's solid angle is exact.
+    // The cells come from splitting the triangle into four parts, four times. The solid angle of
+    // each
+    // cell is exact.
     constexpr int levels = 4;
     std::vector<double> counts(256), expected(256);
     const auto child = [](const std::array<DVec3, 3>& p, int i) -> std::array<DVec3, 3> {
@@ -123,7 +125,7 @@ TEST_CASE("An environment picture is sampled by its density, which integrates to
     const int column = std::clamp(static_cast<int>(uv.x * columns), 0, columns - 1);
     ++counts[static_cast<std::size_t>(row * columns + column)];
   }
-  // Rounding moves some samples on the seams into cells next door, of which some expect none.
+  // Rounding moves some samples across seams to neighboring cells, some of which expect no sample.
   for (std::size_t i = 0; i < counts.size(); ++i) {
     if (expected[i] == 0) {
       CHECK(counts[i] < 5);

@@ -1,4 +1,4 @@
-// The choice among more lights than a few, and what it weighs them by.
+// Tests the choice among many lights, and their importances.
 #include <numeric>
 #include <pah/load/load_scene.hpp>
 
@@ -13,8 +13,8 @@ using namespace pah::test;
 
 namespace {
 
-// Rings of 48 spots in a row over a bare floor, the middle one around the origin. They cross one
-// another: neighbors light places far apart.
+// Rings of 48 spots in a row over a bare floor, the middle ring around the origin. The beams cross:
+// neighboring spots light distant places.
 Scene spots_over_floor(int rings) {
   SceneBuilder builder;
   builder.add(RectangleShape{{12.0 * rings, 12}}, builder.diffuse(0.8F));
@@ -30,7 +30,7 @@ Scene spots_over_floor(int rings) {
   return builder.scene;
 }
 
-// Any point of a rectangle of the floor around the origin.
+// Returns a random point of a rectangle on the floor around the origin.
 LitPoint on_floor(const World& world, const DVec2& side, std::uint32_t index) {
   const DVec2 at = side * (DVec2(Sampler(0, 0, index, 2).next_2d()) - 0.5);
   return {Vec3(DVec3(at.x, 0, at.y) - world.origin), {0, 1, 0}, false};
@@ -47,9 +47,9 @@ LightBounds bounds_of(const SpotLight& spot, const World& world) {
   return bounds;
 }
 
-// How much more the irradiance varies that is estimated from one spot, drawn as the sampler does,
-// than if each spot were drawn in proportion to its own importance. Both variances are sums over
-// the spots, not estimates: of the squares of what each sends over its probability.
+// Returns the variance of the irradiance estimated from one spot that the sampler draws, relative
+// to drawing each spot in proportion to its own importance. Both variances are exact sums over the
+// spots: of the squared irradiance of each spot over its probability.
 double variance_over_exact(const Scene& scene, const DVec2& side) {
   const World world = make_world(scene);
   const Lights lights(world, TextureStore(world.textures));

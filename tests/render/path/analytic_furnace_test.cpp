@@ -1,4 +1,4 @@
-// Nothing is lost and nothing gained: scenes whose radiance is the same in every direction.
+// Tests conservation of energy in scenes whose radiance is the same in every direction.
 #include "analytic_scenes.hpp"
 #include "catch.hpp"
 
@@ -16,7 +16,7 @@ void check_radiance_one(const Scene& scene, double tolerance = 1e-3) {
   CHECK(std::abs(e.mean - 1) < tolerance);
 }
 
-// A ball seen all over the picture, under a constant sky of radiance 1.
+// A ball that fills the picture, under a constant sky of radiance 1.
 SceneBuilder ball_under_sky(MaterialModel material, int samples) {
   SceneBuilder builder;
   builder.add(SphereShape{0.5, 64, 32}, builder.material(std::move(material)));
@@ -109,7 +109,7 @@ TEST_CASE("An emitter is as bright within glass, through a mask and when seen di
   builder.scene.render.max_depth = 0;
   CHECK(estimate(builder.scene).mean == 1);
 
-  // Two panes of half-opaque black: a quarter comes through.
+  // Two half-opaque black panes let a quarter of the light through.
   Material half{"half", DiffuseMaterial{{Vec3(0), no_texture}}};
   half.opacity.value = 0.5F;
   builder.scene.materials.push_back(half);
@@ -129,7 +129,7 @@ TEST_CASE("Masked surfaces dim shadow segments like rays") {
     Material veil{"veil", DiffuseMaterial{{Vec3(0), no_texture}}};
     veil.opacity.value = 0.25F;
     builder.scene.materials.push_back(veil);
-    // A closed shell around all: one crossing on the way in, none for the camera inside.
+    // A closed shell around everything: light crosses it once, camera rays never.
     builder.add(SphereShape{3, 24, 12},
                 static_cast<MaterialId>(builder.scene.materials.size() - 1));
     builder.look({0, 2, 0.5}, {0, 0, 0}, 10);

@@ -1,5 +1,5 @@
-// A white diffuse floor under one light: what it reflects is its irradiance over pi, and that has a
-// closed form. A million samples each, under sanitizers fewer.
+// A white diffuse floor under one light reflects its irradiance over pi, which has a closed form.
+// Each test takes a million samples, fewer under sanitizers.
 #include <algorithm>
 #include <pah/image/image_file.hpp>
 
@@ -13,7 +13,7 @@ using namespace pah::test;
 
 namespace {
 
-// A floor seen from the side along a slope, so that the camera is not in the way of any light.
+// A floor seen at an angle, so that the camera does not block any light.
 SceneBuilder floor_seen_from_aside(double scale = 1, DVec3 offset = DVec3(0)) {
   SceneBuilder builder(scale, offset);
   builder.add(RectangleShape{{4, 4}}, builder.diffuse(1));
@@ -68,7 +68,8 @@ TEST_CASE(
 TEST_CASE("Irradiance under parallel light and under a sun agrees with the closed form") {
   for (const double angle : {0.0, 0.53, 20.0}) {
     for (const Strategy strategy : strategies) {
-      if (angle == 0.53 && strategy == Strategy::bsdf) continue;  // some 20 samples would find it
+      if (angle == 0.53 && strategy == Strategy::bsdf)
+        continue;  // only some 20 samples would hit the sun
       SceneBuilder builder = floor_seen_from_aside();
       builder.light(DirectionalLight{{1, -2, 0.5}, Vec3(5), angle});
       builder.scene.render.strategy = strategy;

@@ -1,5 +1,5 @@
-// Normal maps lean towards growing u and v, however texture coordinates and objects are turned and
-// mirrored.
+// Tests that normal maps lean towards growing u and v, also if texture coordinates and objects are
+// rotated or mirrored.
 #include <numbers>
 #include <pah/render/acceleration.hpp>
 #include <pah/render/render.hpp>
@@ -10,8 +10,8 @@ using namespace pah;
 
 namespace {
 
-// A square in z = 0 under a camera that looks down at it, its texture coordinates as given at
-// (0, 0) and (1, 0) and (0, 1).
+// A square in z = 0 under a camera that looks down at it. The texture coordinates are given at
+// (0, 0), (1, 0) and (0, 1).
 Scene square(const Vec2& at_0, const Vec2& at_x, const Vec2& at_y) {
   Scene scene;
   OrthographicCamera camera;
@@ -77,7 +77,7 @@ TEST_CASE("A bump stays a bump where texture coordinates are mirrored") {
       Material material{"bumpy", DiffuseMaterial{ColorInput{Vec3(0.5F)}}};
       material.normal_map = 0;
       scene.materials.push_back(material);
-      // Light from where the normal points: all of it arrives.
+      // The light comes along the normal, so all of it arrives.
       const Vec3 normal = lean.x * layout.growing_u * mirror + lean.y * layout.growing_v * mirror +
                           lean.z * Vec3(0, 0, 1);
       scene.lights.push_back({"sun", DirectionalLight{DVec3(-normal), Vec3(1)}});

@@ -1,4 +1,4 @@
-// What is called between the passes of a render, and how long passes are.
+// Tests the callbacks between the passes of a render, and the length of passes.
 #include <algorithm>
 #include <limits>
 #include <mutex>
@@ -29,7 +29,7 @@ bool has_samples(const Film& film, int samples) {
   });
 }
 
-// Of the film, after each pass.
+// Returns the number of samples in the film after each pass.
 std::vector<int> samples_after_passes(RenderOptions options) {
   std::vector<int> samples;
   const std::thread::id thread = std::this_thread::get_id();

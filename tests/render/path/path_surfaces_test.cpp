@@ -1,4 +1,4 @@
-// Leaving and reaching surfaces without meeting them again, and shading normals.
+// Tests rays that leave and reach surfaces without meeting them again, and shading normals.
 #include <algorithm>
 #include <array>
 #include <random>
@@ -31,7 +31,7 @@ TEST_CASE("Rays spawned from a convex body never meet it again") {
     for (const bool far_away : {false, true}) {
       SceneBuilder builder(scale, far_away ? DVec3(1e6, -1e6, 1e6) * scale : DVec3(0));
       builder.add(SphereShape{0.5, 24, 12}, 0, turned(20, glm::normalize(DVec3(1, 2, 3))));
-      // Something far off widens the world, so that the body is not in its middle.
+      // A distant object widens the world, so that the body is not in its middle.
       builder.add(RectangleShape{{0.01, 0.01}}, 0, moved({50, 0, 0}));
       const World world = make_world(builder.scene);
       const auto bvh = make_global_bvh(world.triangles());
@@ -53,7 +53,7 @@ TEST_CASE("Rays spawned from a convex body never meet it again") {
         if (glm::dot(direction, at.point.normal) > 0) {
           rays.push_back(spawn_ray(at.point, direction));
         }
-        // Off the curved surface, all that it faces.
+        // Rays from the curved surface, in all directions that it faces.
         rays.push_back(spawn_ray(lifted_point(at, at.lift(at.normal)),
                                  make_frame(at.normal).world_from_local(local), at.normal));
       }
@@ -107,7 +107,7 @@ TEST_CASE("A coarse smooth ball has the terminator of a true ball") {
   const double radius = 0.5;
   const int segments = 24, size = 256;
   SceneBuilder builder;
-  // Turned, so that no edge runs along the terminator.
+  // Rotated, so that no edge runs along the terminator.
   builder.add(SphereShape{radius, segments, segments / 2}, builder.diffuse(1),
               turned(5, {0, 1, 0}));
   builder.light(DirectionalLight{{-1, 0, 0}, Vec3(1)});

@@ -1,4 +1,4 @@
-// What may change a picture's noise must not change its mean.
+// Tests that settings which change the noise of a picture do not change its mean.
 #include <chrono>
 #include <thread>
 
@@ -11,7 +11,7 @@ using namespace pah::test;
 
 namespace {
 
-// All kinds of lights and of materials in one small room.
+// A small room with all kinds of lights and materials.
 SceneBuilder room(double scale = 1, DVec3 offset = DVec3(0)) {
   SceneBuilder builder(scale, offset);
   const MaterialId white = builder.diffuse(0.7F);

@@ -1,4 +1,4 @@
-// Renders one after another in one process, as programs that embed the library do.
+// Tests repeated renders in one process, as in programs that embed the library.
 #include <malloc.h>
 
 #include <filesystem>
@@ -23,7 +23,7 @@ void write(const char* file, const std::string& text) {
   std::ofstream(file, std::ios::binary) << text;
 }
 
-// Everything from the file to a film that went on in a second session.
+// Loads a file, renders it, and continues the film in a second session.
 Film load_and_render() {
   const LoadedScene loaded = load_scene("scene.yaml");
   const Scene& scene = loaded.scene;
@@ -60,8 +60,8 @@ void check_memory_of(int renders) {
   const std::size_t before = allocated();
   const int measured = renders - renders / 5;
   for (int i = 0; i < measured; ++i) (void)load_and_render();
-  // Nothing that is lost in each of them is as large as a sixteenth of a film, which is of half a
-  // kilobyte; what allocators and threads keep for themselves grows by less.
+  // A leak in every render must stay below a sixteenth of a film, which is half a kilobyte. The
+  // memory that allocators and threads keep grows by less.
   const auto growth = static_cast<double>(allocated()) - static_cast<double>(before);
   CAPTURE(before, film_bytes, growth);
   CHECK(growth < measured * static_cast<double>(film_bytes) / 16);

@@ -1,4 +1,4 @@
-// However a picture's samples are split into passes, tiles and sessions, its film is the same.
+// Tests that the film does not depend on how samples are split into passes, tiles and sessions.
 #include <algorithm>
 #include <map>
 #include <mutex>
@@ -32,7 +32,7 @@ Scene room() {
   return builder.scene;
 }
 
-// What sessions of one scene share.
+// The data that sessions of a scene share.
 struct Prepared {
   explicit Prepared(Scene of) : scene(std::move(of)) {}
 
@@ -62,7 +62,7 @@ bool same_to_the_last_bit(const Film& a, const Film& b) {
          a.features == b.features;
 }
 
-// The pixels of a tile, by how many samples they have; all the same, or -1.
+// Returns the number of samples that all pixels of a tile have, or -1 if they differ.
 int samples_of(const Film& film, const PixelRect& tile) {
   const auto samples = static_cast<int>(film.at(tile.x0, tile.y0).samples);
   for (int y = tile.y0; y < tile.y1; ++y) {
@@ -93,7 +93,7 @@ TEST_CASE("The tiles of a session are its film, each pixel once") {
 
 TEST_CASE("Any split into passes gives the film of a render", "[threads]") {
   Prepared prepared(room());
-  // More than are traced together, too.
+  // Also more samples than are traced together.
   const std::vector<std::vector<int>> splits_of_5{{5}, {1, 4}, {4, 1}, {2, 2, 1}, {1, 1, 1, 1, 1}};
   const std::vector<std::vector<int>> splits_of_40{{40}, {17, 23}};
   for (const auto& splits : {splits_of_5, splits_of_40}) {
@@ -180,7 +180,7 @@ TEST_CASE("A restored film goes on as if nothing had happened") {
     first.render_pass(all_tiles(first), 0, before);
     const Film saved = first.film();
     RenderSession second = prepared.session();
-    second.render_pass(all_tiles(second), 0, 1);  // what is there gives way
+    second.render_pass(all_tiles(second), 0, 1);  // is replaced by the restored film
     second.restore(saved);
     CHECK(same_to_the_last_bit(second.film(), saved));
     second.render_pass(all_tiles(second), before, 5 - before);
@@ -249,7 +249,7 @@ TEST_CASE("A stopped pass tells which tiles were finished", "[threads]") {
       if (told.size() == 3) stop = true;
     };
     const Tiles finished = session.render_pass(tiles, 0, 5, {&stop, on_tile});
-    // Tiles under way are finished, so there may be one more for each further thread.
+    // Running tiles are finished, so there may be one more for each further thread.
     CHECK(finished.size() >= 3);
     CHECK(finished.size() <= static_cast<std::size_t>(2 + threads));
     CHECK(std::ranges::is_sorted(finished));

@@ -1,4 +1,4 @@
-// Colors of vertices, across triangles and in materials that ask for them.
+// Tests vertex colors, interpolated over triangles and multiplied with the material.
 #include "analytic_scenes.hpp"
 #include "catch.hpp"
 
@@ -7,8 +7,8 @@ using namespace pah::test;
 
 namespace {
 
-// A unit square that faces +y, seen from above; red grows with x, green with -z. Without a jump of
-// the index of refraction a principled material is diffuse.
+// A unit square that faces +y, seen from above; red grows with x, green with -z. With an index of
+// refraction of 1 a principled material is diffuse.
 Scene colored_square(bool asked_for) {
   SceneBuilder builder;
   const MaterialId paint =

@@ -70,7 +70,7 @@ TEST_CASE("Declared areas are built, derived ones are not yet worth it") {
 }
 
 TEST_CASE("Lights with enough rays get grids") {
-  // What sanitizers slow down more is of no interest.
+  // Skipped under sanitizers, which change the ratio of times.
   if (test::sanitized) return;
   Scene scene = scene_with_area();
   scene.influence_areas.declared.clear();

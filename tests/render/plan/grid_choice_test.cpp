@@ -1,4 +1,4 @@
-// Which lights have grids, and why.
+// Tests which lights get grids, and for which reasons.
 #include "render/plan/grid_choice.hpp"
 
 #include <algorithm>
@@ -16,7 +16,7 @@ constexpr std::string_view is_too_large = "it took more memory than the scene al
 
 const ExactBundle point = PointBundle{};
 
-// Of rays that cost a tenth in a grid.
+// The pilot of rays that cost a tenth in a grid.
 constexpr GridPilot pilot{.expected_rays = 1e6, .rays = 100, .seconds = 1e-5, .cost = 40};
 
 // A ball under a bulb and a lamp.
@@ -40,7 +40,7 @@ std::uint64_t bytes_of_bvh(const World& world) {
   return make_global_bvh(world.triangles())->memory().global_bvh;
 }
 
-// Of all its lights.
+// Checks that no light of the scene gets a grid, for this reason.
 void check_reason(const Scene& scene, std::string_view reason) {
   const World world = make_world(scene);
   CHECK(no_grids(world, scene) == reason);

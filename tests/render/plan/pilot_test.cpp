@@ -1,4 +1,4 @@
-// The rays that tell what a light's shadow rays are like.
+// Tests the pilot, which estimates the kind and number of a light's shadow rays.
 #include "render/plan/pilot.hpp"
 
 #include <algorithm>
@@ -51,7 +51,7 @@ TEST_CASE("Every sample of a floor that fills the picture sends a ray to the sun
   Scene scene = floor_scene();
   add_sun(scene, {0, -1, 0.2});
   CHECK(pilot_of(scene).at(0).expected == Approx(samples).epsilon(0.02));
-  // Paths leave.
+  // Paths leave the scene.
   scene.render.max_depth = 8;
   CHECK(pilot_of(scene).at(0).expected == Approx(samples).epsilon(0.02));
   scene.film.crop = PixelRect{0, 50, 0, 40};

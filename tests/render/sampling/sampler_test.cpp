@@ -11,7 +11,7 @@ using namespace pah;
 
 namespace {
 
-// How many of the points fall into each cell of a columns x rows grid; true if one each.
+// Returns whether each cell of a columns x rows grid holds exactly one point.
 bool one_each(const std::vector<Vec2>& points, int log_columns, int log_rows) {
   std::vector<int> count(points.size(), 0);
   for (const Vec2& p : points) {
@@ -91,7 +91,7 @@ TEST_CASE("Dimensions, pixels and seeds are uncorrelated") {
 }
 
 TEST_CASE("One sample of every pixel is uniform") {
-  // What a scramble must add to the net: each point alone is uniform, here in 16 x 16 cells.
+  // With scrambling each single point is uniform too, here in 16 x 16 cells.
   std::array<int, 256> count{};
   constexpr int pixels = 1 << 16;
   for (std::uint32_t i = 0; i < pixels; ++i) {
@@ -131,7 +131,7 @@ TEST_CASE("A sampler depends on its arguments alone") {
   }
   CHECK(Sampler(1, 2, 3, 4).next_1d() != Sampler(2, 1, 3, 4).next_1d());
   CHECK(Sampler(1, 2, 3, 4).next_1d() != Sampler(1, 2, 3, 5).next_1d());
-  // Recorded, so that no platform draws other numbers.
+  // Recorded values: every platform must draw the same numbers.
   Sampler c(640, 480, 77, 0x123456789ULL);
   CHECK(c.next_1d() == 0x1.9ffb7cp-2F);
   CHECK(c.next_2d() == Vec2{0x1.00a04p-5F, 0x1.b65a7cp-1F});

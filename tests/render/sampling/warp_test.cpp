@@ -34,7 +34,7 @@ TEST_CASE("Directions on the sphere and hemispheres follow their densities") {
 
 TEST_CASE("Directions in cones follow their densities") {
   Rng rng(2);
-  // The last is the sun's: 1 - cos(0.265 degrees).
+  // The last value is that of the sun: 1 - cos(0.265 degrees).
   for (const float one_minus_cos : {1.5F, 0.3F, 1.07e-5F}) {
     CAPTURE(one_minus_cos);
     const auto sample = [&](Rng& r) -> std::optional<DVec2> {
@@ -75,7 +75,7 @@ TEST_CASE("Filter offsets follow the filters") {
     return DVec2{sample_blackman_harris(uniform2(r), radius)};
   };
   const Domain domain{DVec2{-radius}, DVec2{radius}};
-  // The window itself, rather than the one linear between knots.
+  // The exact window, not its linear interpolation between knots.
   const auto window = [](double x) {
     const double t = glm::pi<double>() * x;
     return (0.35875 + 0.48829 * std::cos(t) + 0.14128 * std::cos(2 * t) +
