@@ -4,7 +4,7 @@
 namespace pah {
 namespace {
 
-// A terminal obeys control characters; an excerpt may come from any file.
+// Replaces control characters: a terminal obeys them, and an excerpt may come from any file.
 std::string printable(const std::string& text) {
   std::string result = text;
   for (char& c : result)
@@ -12,7 +12,7 @@ std::string printable(const std::string& text) {
   return result;
 }
 
-// Spaces up to the character at `column`, tabs kept, so that the caret stands under it.
+// Returns the indent that puts a caret under the character at `column`. Tabs stay tabs.
 std::string indent_to(const std::string& excerpt, int column) {
   std::string indent;
   int at = 0;

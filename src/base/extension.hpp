@@ -5,7 +5,7 @@
 
 namespace pah {
 
-// Of "a/Picture.PNG", ".png"; empty without one. Formats are told by it, whatever its case.
+// Returns ".png" for "a/Picture.PNG"; empty if the name has no extension.
 [[nodiscard]] std::string lower_extension(const std::filesystem::path& file);
 
 }  // namespace pah

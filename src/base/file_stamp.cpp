@@ -10,7 +10,7 @@ FileStamp stamp_of(const std::filesystem::path& file) {
   stamp.size = std::filesystem::file_size(file, error);
   if (!error) stamp.modified = std::filesystem::last_write_time(file, error);
   if (error) return {};
-  stamp.there = true;
+  stamp.exists = true;
   return stamp;
 }
 

@@ -1,4 +1,4 @@
-// Whether a file is as it was, by its size and the time it was modified.
+// Notices that a file has changed by its size and its time of modification.
 #pragma once
 
 #include <cstdint>
@@ -7,7 +7,7 @@
 namespace pah {
 
 struct FileStamp {
-  bool there = false;
+  bool exists = false;
   std::uintmax_t size = 0;
   std::filesystem::file_time_type modified;
 

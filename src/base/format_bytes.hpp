@@ -5,7 +5,7 @@
 
 namespace pah {
 
-// "1.50 MB", for people.
+// Formats a number of bytes for people: "1.50 MB".
 [[nodiscard]] std::string format_bytes(std::uint64_t bytes);
 
 }  // namespace pah

@@ -1,4 +1,4 @@
-// Numbers in binary files.
+// Numbers of binary files in little-endian byte order.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
-// What comes before a fork and after a join. oneTBB orders both, but is not compiled for the thread
-// sanitizer, which would report races where there are none.
+// Tells the thread sanitizer that work before a fork and after a join does not race with the tasks.
+// oneTBB orders them, but it is not compiled for the sanitizer, which would report false races.
 #pragma once
 
 #include <atomic>
@@ -8,7 +8,7 @@ namespace pah {
 
 class ForkJoinOrder {
  public:
-  // What is done by one task, to its end or to what it throws.
+  // Lives while one task runs, also if the task throws.
   class Task {
    public:
     explicit Task(ForkJoinOrder& order);
@@ -21,7 +21,7 @@ class ForkJoinOrder {
   };
 
   ForkJoinOrder() = default;
-  // A join, too: what a task throws leaves the loop without another.
+  // Joins too: an exception of a task leaves the loop without calling join().
   ~ForkJoinOrder();
   ForkJoinOrder(const ForkJoinOrder&) = delete;
   ForkJoinOrder& operator=(const ForkJoinOrder&) = delete;

@@ -7,7 +7,6 @@
 #include <charconv>
 #include <chrono>
 #include <fstream>
-#include <string>
 #include <system_error>
 
 namespace pah {
@@ -15,13 +14,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-[[noreturn]] void fail(const fs::path& file, const std::string& why) {
-  throw FileError("cannot write " + file.string() + ": " + why);
-}
-
 std::string last_error() { return std::generic_category().message(errno); }
 
-// Where a link leads: renaming is to replace the file, not the link to it.
+// Follows links: renaming must replace the file, not the link to it.
 fs::path resolved(const fs::path& file) {
   std::error_code error;
   const fs::path absolute = fs::absolute(file, error);
@@ -36,15 +31,15 @@ void write_all(const fs::path& file, const fs::path& named, std::string_view tex
   stream.write(text.data(), static_cast<std::streamsize>(text.size()));
   stream.close();
   if (stream) return;
-  const std::string why = last_error();
+  const std::string reason = last_error();
   if (file != named) {
     std::error_code ignored;
     fs::remove(file, ignored);
   }
-  fail(named, why);
+  fail_to_write(named, reason);
 }
 
-// What comes before and after the number of the process in the name of a temporary file.
+// The parts of a temporary file's name before and after the process id.
 struct TemporaryName {
   std::string before, after;
 };
@@ -53,8 +48,8 @@ TemporaryName temporary_name(const fs::path& target) {
   return {"." + target.stem().string() + ".part", target.extension().string()};
 }
 
-// Removes what processes left that were killed as they wrote this file. One that this machine does
-// not know may be another machine's: it is given time.
+// Removes temporary files of processes that were killed while they wrote this file. An unknown
+// process may run on another machine, so a file must be a minute old.
 void remove_leftovers(const fs::path& target) {
   const auto [before, after] = temporary_name(target);
   std::error_code ignored;
@@ -63,10 +58,10 @@ void remove_leftovers(const fs::path& target) {
     const std::string name = entry->path().filename().string();
     if (!name.starts_with(before)) continue;
     pid_t process = 0;
-    const auto [rest, error] =
+    const auto [end_of_id, error] =
         std::from_chars(name.data() + before.size(), name.data() + name.size(), process);
-    if (error != std::errc() || process <= 0 || rest != name.data() + name.size() - after.size() ||
-        !name.ends_with(after))
+    if (error != std::errc() || process <= 0 ||
+        end_of_id != name.data() + name.size() - after.size() || !name.ends_with(after))
       continue;
     if (::kill(process, 0) == 0 || errno != ESRCH) continue;
     const fs::file_time_type written = fs::last_write_time(entry->path(), ignored);
@@ -77,8 +72,12 @@ void remove_leftovers(const fs::path& target) {
 
 }  // namespace
 
+void fail_to_write(const fs::path& file, const std::string& reason) {
+  throw FileError("cannot write " + file.string() + ": " + reason);
+}
+
 bool is_device(const fs::path& file) {
-  // These may lead to files, but to files that somebody has open.
+  // These may lead to regular files, but another program has those open.
   for (const char* open_file : {"/dev/std", "/dev/fd/", "/proc/"})
     if (file.string().starts_with(open_file)) return true;
   std::error_code error;
@@ -93,12 +92,13 @@ fs::path temporary_beside(const fs::path& file) {
 }
 
 void check_can_create(const fs::path& file) {
-  if (file.filename().empty()) fail(file, "it names no file");
+  if (file.filename().empty()) fail_to_write(file, "it names no file");
   if (is_device(file)) return;
   std::error_code error;
-  if (fs::is_directory(file, error)) fail(file, "it is a folder");
+  if (fs::is_directory(file, error)) fail_to_write(file, "it is a folder");
   const fs::path folder = resolved(file).parent_path();
-  if (!fs::is_directory(folder, error)) fail(file, "there is no folder " + folder.string());
+  if (!fs::is_directory(folder, error))
+    fail_to_write(file, "there is no folder " + folder.string());
   const fs::path probe = temporary_beside(file);
   write_all(probe, file, {});
   fs::remove(probe, error);
@@ -113,7 +113,7 @@ void put_in_place(const fs::path& temporary, const fs::path& file) {
   if (!error) return remove_leftovers(resolved(file));
   std::error_code ignored;
   fs::remove(temporary, ignored);
-  fail(file, error.message());
+  fail_to_write(file, error.message());
 }
 
 void write_text_file(const fs::path& file, std::string_view text) {

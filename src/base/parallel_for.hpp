@@ -1,5 +1,5 @@
-// Loops shared among the threads of the current arena. Whatever the number of threads, every part
-// is done once and results are joined in order.
+// Loops that the threads of the current arena share. Results do not depend on the number of
+// threads: each part runs once, and results are joined in order.
 #pragma once
 
 #include <cstddef>
@@ -8,15 +8,15 @@
 
 namespace pah {
 
-// Threads of the current arena.
+// Returns the number of threads of the current arena.
 [[nodiscard]] unsigned parallel_threads();
 
-// Calls body(first, last) for ranges of at most `grain` that together make [0, count). Returns when
-// all are done; rethrows what one of them throws.
+// Calls body(first, last) for ranges of at most `grain` indices that together make [0, count).
+// Returns when all calls have ended; rethrows an exception of one of them.
 void parallel_ranges(std::size_t count, std::size_t grain,
                      const std::function<void(std::size_t, std::size_t)>& body);
 
-// Calls body(i) for each i below `count`. `grain` of them should be worth a task.
+// Calls body(i) for each i below `count`, with `grain` calls or fewer in a task.
 template <typename Body>
 void parallel_for(std::size_t count, std::size_t grain, const Body& body) {
   parallel_ranges(count, grain, [&body](std::size_t first, std::size_t last) {
@@ -24,8 +24,8 @@ void parallel_for(std::size_t count, std::size_t grain, const Body& body) {
   });
 }
 
-// Joins what `part(first, last)` makes of the chunks of [0, count), in their order, to `zero`:
-// the same to the last bit on any number of threads.
+// Calls part(first, last) for each chunk of [0, count), and joins the results to `zero` in order.
+// The result is the same to the last bit on any number of threads.
 template <typename Value, typename Part, typename Join>
 [[nodiscard]] Value parallel_fold(std::size_t count, std::size_t chunk, const Value& zero,
                                   const Part& part, const Join& join) {

@@ -1,4 +1,4 @@
-// Tasks that may run tasks of the same group.
+// A group of tasks. A task may run further tasks in the same group.
 #pragma once
 
 #include <functional>
@@ -12,7 +12,7 @@ class TaskGroup {
   ~TaskGroup();  // wait() must have been called after the last run()
 
   void run(std::function<void()> task);
-  // Until every task has ended; rethrows what one of them threw.
+  // Waits until every task has ended; rethrows an exception of one of them.
   void wait();
 
  private:

@@ -6,7 +6,7 @@
 namespace pah {
 namespace {
 
-// Of Rec. 709.
+// Rec. 709 luminance.
 constexpr glm::vec3 luminance_weights{0.2126F, 0.7152F, 0.0722F};
 
 }  // namespace

@@ -18,8 +18,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-[[noreturn]] void fail_to_read(const fs::path& file, const std::string& why) {
-  throw FileError("cannot read " + file.string() + ": " + why);
+[[noreturn]] void fail_to_read(const fs::path& file, const std::string& reason) {
+  throw FileError("cannot read " + file.string() + ": " + reason);
 }
 
 std::string or_unknown(std::string message) {
@@ -27,7 +27,7 @@ std::string or_unknown(std::string message) {
   return message;
 }
 
-// Into [low, high]; what is not a number becomes low.
+// Clamps to [low, high]; NaN becomes `low`.
 float clamped(float x, float low, float high) { return x > low ? std::min(x, high) : low; }
 
 template <class Integer>
@@ -52,12 +52,12 @@ std::vector<float> rgbe_pixels(const Image& image) {
   return values;
 }
 
-// Colors and directions do with 16 bits; distances and variances do not.
+// 16 bits suffice for colors and directions, but not for distances and variances.
 bool fits_half(const ImageLayer& layer) {
   return layer.name.empty() || layer.name == "albedo" || layer.name == "normal";
 }
 
-// All channels of all layers, pixel by pixel; adds the channels to `spec`.
+// Returns all channels of all layers, pixel by pixel, and adds the channels to `spec`.
 std::vector<float> exr_pixels(const std::vector<ImageLayer>& layers, bool full_float,
                               OIIO::ImageSpec& spec) {
   spec.channelnames.clear();
@@ -74,7 +74,7 @@ std::vector<float> exr_pixels(const std::vector<ImageLayer>& layers, bool full_f
     for (std::size_t i = 0; i < layer.image.pixels.size(); ++i)
       for (std::size_t k = 0; k < layer.channels.size(); ++k) {
         const float x = layer.image.pixels[i][static_cast<int>(k)];
-        // Beyond the largest half there is only infinity.
+        // Larger values would become infinite.
         values[i * stride + first + k] = half && std::isfinite(x) ? clamped(x, -65504, 65504) : x;
       }
     first += layer.channels.size();
@@ -100,7 +100,7 @@ void require_layers(const std::vector<ImageLayer>& layers) {
 
 OIIO::ImageSpec spec_of(const Image& image, Encoding encoding, const WriteOptions& options) {
   OIIO::ImageSpec spec(image.width, image.height, 3, OIIO::TypeFloat);
-  // A date would make equal pictures differ.
+  // A date would make the files of equal pictures differ.
   spec.attribute("DateTime", "");
   spec.attribute("Software", "pahrender");
   spec.attribute("Compression", encoding == Encoding::jpeg ? "jpeg:95" : "zip");
@@ -111,7 +111,7 @@ OIIO::ImageSpec spec_of(const Image& image, Encoding encoding, const WriteOption
   return spec;
 }
 
-// Writes to the file `to`, or to where the output's proxy leads; messages name `file`.
+// Writes to the file `to`, or to the output's proxy if it has one. Errors name `file`.
 void encode(const fs::path& file, const std::string& to, OIIO::ImageOutput& out, Encoding encoding,
             const std::vector<ImageLayer>& layers, const WriteOptions& options) {
   const Image& image = layers.front().image;
@@ -140,7 +140,7 @@ void encode(const fs::path& file, const std::string& to, OIIO::ImageOutput& out,
   }
 }
 
-// libtiff reads what it has written, which OpenImageIO's memory cannot do.
+// libtiff reads back what it has written, which OpenImageIO's memory proxy does not support.
 void write_by_file(const fs::path& file, OIIO::ImageOutput& out, Encoding encoding,
                    const std::vector<ImageLayer>& layers, const WriteOptions& options) {
   const fs::path temporary = temporary_beside(file);
@@ -154,7 +154,7 @@ void write_by_file(const fs::path& file, OIIO::ImageOutput& out, Encoding encodi
   put_in_place(temporary, file);
 }
 
-// The first of three channels to read, or the one to read thrice.
+// The first of three color channels, or a single channel to use as gray.
 struct Channels {
   int first = 0;
   bool color = false;
@@ -177,18 +177,18 @@ void write_image(const fs::path& file, const std::vector<ImageLayer>& layers,
   if (options.png_bits != 8 && options.png_bits != 16)
     throw std::invalid_argument("a PNG file has 8 or 16 bits");
   std::vector<unsigned char> bytes;
-  OIIO::Filesystem::IOVecOutput proxy(bytes);  // outlives the output, which may write when it ends
+  OIIO::Filesystem::IOVecOutput proxy(bytes);  // outlives the output, which may write at its end
   const auto out = OIIO::ImageOutput::create(file.filename().string());
   if (!out) fail_to_write(file, or_unknown(OIIO::geterror()));
   if (encoding == Encoding::tiff) return write_by_file(file, *out, encoding, layers, options);
-  // In memory first: not every encoder notices a full disk.
+  // Encodes in memory first, because not every encoder notices a full disk.
   out->set_ioproxy(&proxy);
   encode(file, file.filename().string(), *out, encoding, layers, options);
   write_text_file(file, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
 }
 
 ImageMetadata read_metadata(const fs::path& file) {
-  // Not as pictures of others are opened: those are read without their metadata.
+  // open_picture() would leave out the metadata.
   const auto input = OIIO::ImageInput::open(file.string());
   if (!input) fail_to_read(file, or_unknown(OIIO::geterror()));
   ImageMetadata metadata;

@@ -22,10 +22,6 @@ constexpr Format formats[] = {{".png", Encoding::png},   {".jpg", Encoding::jpeg
 
 }  // namespace
 
-void fail_to_write(const fs::path& file, const std::string& why) {
-  throw FileError("cannot write " + file.string() + ": " + why);
-}
-
 Encoding encoding_of(const fs::path& file) {
   const std::string extension = lower_extension(file);
   for (const Format& format : formats)
@@ -48,7 +44,7 @@ const std::vector<std::string>& image_extensions() {
 }
 
 void check_writable(const fs::path& file) {
-  // Its writer goes back and forth, which neither a device nor a pipe does.
+  // The TIFF writer seeks, which devices and pipes do not support.
   if (encoding_of(file) == Encoding::tiff && is_device(file))
     fail_to_write(file, "a TIFF file cannot be written to a device");
   check_can_create(file);

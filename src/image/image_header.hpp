@@ -1,4 +1,4 @@
-// What a picture that a scene names is like, and whether it can be read.
+// Sizes and checks of the pictures that a scene names.
 #pragma once
 
 #include <cstdint>
@@ -12,19 +12,20 @@ struct ImageHeader {
   int width = 0, height = 0;
 };
 
-// Throws FileError, saying what is wrong without naming the file: also if the picture takes more
-// than `max_bytes` as RGB floats.
+// Throws FileError, also if the picture takes more than `max_bytes` as RGB floats. The message does
+// not name the file.
 [[nodiscard]] ImageHeader read_image_header(const std::filesystem::path& file,
                                             std::uint64_t max_bytes);
 
-// Reads the whole picture, and keeps nothing of it; how many of its values are not finite, or as
-// good as infinite, and will be taken for 0. With `bytes`, they are the picture. Throws FileError
-// likewise.
+// Reads the whole picture without keeping it. Returns the number of values that are not finite, or
+// too large, and will be replaced by 0. `bytes`, if given, are the file's content. Throws FileError
+// like read_image_header().
 [[nodiscard]] std::uint64_t check_image_file(const std::filesystem::path& file,
                                              std::uint64_t max_bytes,
                                              const std::string* bytes = nullptr);
 
-// The values of the first channel, row by row from the top. Throws FileError likewise.
+// Returns the values of the first channel, row by row from the top. Throws FileError like
+// read_image_header().
 [[nodiscard]] std::vector<float> read_first_channel(const std::filesystem::path& file,
                                                     std::uint64_t max_bytes);
 

@@ -1,11 +1,11 @@
-// OpenImageIO, behind write_image() and all that reads pictures.
+// Loading of OpenImageIO, which reads and writes all pictures.
 #pragma once
 
 namespace pah {
 
-// A program may define this, and the functions that need OpenImageIO, so that it starts without:
-// see cli/pictures. As linked here, everything is ready, and this does nothing. Throws FileError if
-// no picture can be read or written.
+// Prepares the functions that need OpenImageIO. This version does nothing, because they are linked.
+// A program may define its own version and these functions, so that it starts without OpenImageIO
+// (see cli/pictures). Throws FileError if no picture can be read or written.
 void load_image_library();
 
 }  // namespace pah

@@ -1,6 +1,7 @@
-// sRGB (IEC 61966-2-1), to and from linear light; below 0 extended as straight lines.
+// Conversion between sRGB (IEC 61966-2-1) and linear light. Negative values continue the straight
+// line at 0.
 //
-// Computed in the argument's precision: pictures depend on the last bit of either.
+// The result depends on the argument's precision to the last bit, so float and double both exist.
 #pragma once
 
 #include <cmath>

@@ -13,18 +13,18 @@ namespace {
 
 constexpr const char* camera_name = "camera";
 
-// Positions are rounded to float before rays are aimed at them or leave them.
+// Rounds a position to float, as is done before rays start at it or aim at it.
 DVec3 as_rays_see_it(const DVec3& position) {
   DVec3 seen;
   for (int k = 0; k < 3; ++k) {
-    // GCC 12 vectorizes the two conversions and then drops them both, were it not volatile.
+    // Without volatile, GCC 12 vectorizes the two conversions and then drops both.
     const volatile float rounded = static_cast<float>(position[k]);
     seen[k] = double{rounded};
   }
   return seen;
 }
 
-// Where rays of a bundle start and what they may hit: the box of all triangles, widened.
+// The widened box of all triangles. Rays of a bundle start in it and hit only what it holds.
 struct Reachable {
   Aabb box;
   double margin = 0;
@@ -32,8 +32,8 @@ struct Reachable {
   explicit Reachable(const Aabb& bounds) : box(bounds) {
     if (bounds.empty()) return;
     const Vec3 largest = glm::max(glm::abs(bounds.min), glm::abs(bounds.max));
-    // A ray starts within 15 roundings of a surface (spawn.hpp), and a hit lies within 30 of
-    // its triangle (ray_triangle.hpp), of sizes of up to twice the largest coordinate.
+    // A ray starts within 15 roundings of a surface (spawn.hpp), and a hit lies within 30 of its
+    // triangle (ray_triangle.hpp). Rounded numbers reach twice the largest coordinate.
     const float widening =
         rounding_bound(2 * (15 + 30)) * std::max(largest.x, std::max(largest.y, largest.z));
     box.min -= widening;
@@ -41,7 +41,7 @@ struct Reachable {
     margin = widening;
   }
 
-  // Of the box along a direction of unit length, as seen from `origin`.
+  // Returns the range of distances from `origin` that the box covers along a unit direction.
   [[nodiscard]] DVec2 range(const DVec3& origin, const DVec3& direction) const {
     const DVec3 half = 0.5 * (DVec3(box.max) - DVec3(box.min));
     const double center = glm::dot(DVec3(box.min) + half - origin, direction);
@@ -71,8 +71,7 @@ class Derivation {
   void derive(const PointLight& light) { add_sides(light.position); }
 
   void derive(const SpotLight& light) {
-    // Near 90 degrees a single frustum would be all but the whole half-space, and beyond it none
-    // is.
+    // Near 90 degrees, a single frustum fills almost the whole half-space; beyond, none exists.
     constexpr double widest = 80;
     if (light.angle >= widest) return add_sides(light.position);
     add_frustum("", as_rays_see_it(light.position), orthonormal_basis(light.direction),
@@ -98,7 +97,7 @@ class Derivation {
   void derive(const PerspectiveCamera& camera) {
     if (camera.aperture_radius > 0) return;
     const DVec2 half = half_picture(std::tan(glm::radians(camera.fov) / 2));
-    // Directions are sums of three vectors, of 6 roundings each at most.
+    // Directions are sums of three vectors with at most 6 roundings each.
     const DVec2 widening = rounding_bound(18) * (1 + half.x + half.y) * (1.0 + half);
     add_frustum("", as_rays_see_it(camera.position), frame_of(camera), half + widening,
                 PointMeasure::plane);
@@ -125,7 +124,7 @@ class Derivation {
     return {left, glm::cross(forward, left), forward};
   }
 
-  // Half the picture's size with what filters reach beyond it.
+  // Half the picture's size, with the margin that the filter reaches beyond it.
   [[nodiscard]] DVec2 half_picture(double half_height) const {
     const double beyond = 2 * std::max(0.0, film_.filter_radius - 0.5);
     return half_height / film_.height * DVec2(film_.width + beyond, film_.height + beyond);
@@ -141,7 +140,7 @@ class Derivation {
     }
   }
 
-  // Reaching to the end of the scene; none if the scene lies elsewhere.
+  // Adds a frustum that reaches to the end of the scene, unless it misses the scene.
   void add_frustum(const char* side, const DVec3& eye, const DMat3& axes, const DVec2& tan_half,
                    PointMeasure measure) {
     const double far = reachable_.range(eye, axes[2]).y;
@@ -162,7 +161,7 @@ class Derivation {
   std::uint32_t bundle_ = no_bundle;
 };
 
-// The bundle of a light that a declaration names.
+// Returns the bundle of the light that a declaration names.
 std::uint32_t bundle_of(const World& world, const std::string& light) {
   if (light == camera_name) return camera_bundle;
   const auto found = std::ranges::find(world.lights, light, &Light::name);
@@ -176,7 +175,7 @@ BundleShape shape_of(const World& world, std::uint32_t bundle) {
   return bundle == camera_bundle ? bundle_shape(world.camera) : bundle_shape(world.lights[bundle]);
 }
 
-// Where the rays of a bundle meet.
+// Returns the point where the rays of a bundle meet.
 DVec3 meeting_point(const World& world, std::uint32_t bundle) {
   if (bundle == camera_bundle) return std::get<PerspectiveCamera>(world.camera).position;
   const auto& model = world.lights[bundle].model;
@@ -213,7 +212,7 @@ SceneArea declared_area(const World& world, const AreaDeclaration& declaration) 
       declaration);
 }
 
-// "lamp", "lamp 2", "lamp 3".
+// Numbers equal names: "lamp", "lamp 2", "lamp 3".
 void number_names(std::vector<SceneArea>& areas) {
   std::unordered_map<std::string, int> seen;
   for (SceneArea& area : areas) {

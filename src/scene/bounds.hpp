@@ -1,4 +1,4 @@
-// Boxes before coordinates become float.
+// Boxes in double precision, used before coordinates become float.
 #pragma once
 
 #include <cmath>
@@ -14,7 +14,7 @@ struct Bounds {
     min = glm::min(min, other.min);
     max = glm::max(max, other.max);
   }
-  // Halved before adding, so that it is finite for every finite box.
+  // Halves before adding, so that the center of every finite box is finite.
   [[nodiscard]] DVec3 center() const { return 0.5 * min + 0.5 * max; }
 };
 

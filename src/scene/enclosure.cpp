@@ -25,7 +25,7 @@ bool lets_light_through(const Material& material) {
          opacity.texture != no_texture;
 }
 
-// Lamps inside make it a room.
+// A closed mesh with a lamp inside is a room, not a mistake.
 bool holds_light(const Scene& scene, const std::vector<Bounds>& boxes, const Bounds& box) {
   const auto is_inside = [&](const Light& light) {
     if (const auto* point = std::get_if<PointLight>(&light.model))
@@ -40,7 +40,7 @@ bool holds_light(const Scene& scene, const std::vector<Bounds>& boxes, const Bou
   return false;
 }
 
-// How often a closed surface goes around the point; a fraction of it where the surface is open.
+// Returns how often a closed surface winds around the point; a fraction for an open surface.
 double winding_number(const Mesh& mesh, const DVec3& point) {
   double sum = 0;
   for (const UVec3& t : mesh.triangles) {
@@ -52,7 +52,7 @@ double winding_number(const Mesh& mesh, const DVec3& point) {
   return sum / (4 * std::numbers::pi);
 }
 
-// Gaps that are seen as less than a thousandth of the sphere may well be cracks.
+// Ignores gaps of less than a thousandth of the sphere of directions: they may be cracks.
 bool is_closed_around(const Mesh& mesh, const DVec3& point) {
   return std::abs(winding_number(mesh, point)) > 0.999;
 }
@@ -66,7 +66,7 @@ std::optional<std::size_t> dark_enclosure(const Scene& scene, const std::vector<
     if (!contains(boxes[i], eye) || lets_light_through(scene.materials[instance.material]) ||
         holds_light(scene, boxes, boxes[i]))
       continue;
-    // An affine map keeps what is inside inside.
+    // Affine maps preserve inside and outside, so test in object space.
     const glm::dmat4 object_from_world = glm::inverse(glm::dmat4(instance.world_from_object));
     if (is_closed_around(scene.meshes[instance.mesh], object_from_world * glm::dvec4(eye, 1)))
       return i;

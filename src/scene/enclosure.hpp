@@ -1,4 +1,4 @@
-// Whether a scene's camera is shut in where no light comes.
+// Detects a camera inside a closed object that no light enters.
 #pragma once
 
 #include <optional>
@@ -9,8 +9,8 @@
 
 namespace pah {
 
-// The first instance that the camera is inside of, that is closed, and that neither holds a light
-// nor lets any through. `boxes` are those of the instances.
+// Returns the first closed instance around the camera that holds no light and lets none through.
+// `boxes` are the bounding boxes of the instances.
 [[nodiscard]] std::optional<std::size_t> dark_enclosure(const Scene& scene,
                                                         const std::vector<Bounds>& boxes);
 

@@ -4,10 +4,11 @@
 namespace pah {
 namespace {
 
-// The tabulated samples nearest to these wavelengths. Au, Ag, Cu: P. B. Johnson and R. W. Christy,
-// "Optical constants of the noble metals", Phys. Rev. B 6, 4370 (1972); Fe: the same, "Optical
-// constants of transition metals", Phys. Rev. B 9, 5056 (1974); Al: A. D. Rakic, "Algorithm for the
-// determination of intrinsic optical constants of metal films", Appl. Opt. 34, 4755 (1995).
+// The tabulated samples nearest to the wavelengths of the header. Au, Ag, Cu: P. B. Johnson and R.
+// W. Christy, "Optical constants of the noble metals", Phys. Rev. B 6, 4370 (1972); Fe: the same,
+// "Optical constants of transition metals", Phys. Rev. B 9, 5056 (1974); Al: A. D. Rakic,
+// "Algorithm for the determination of intrinsic optical constants of metal films", Appl. Opt. 34,
+// 4755 (1995).
 constexpr std::array<MetalPreset, 5> presets{{
     {"Au", "gold", {0.14F, 0.43F, 1.38F}, {3.697F, 2.455F, 1.914F}},
     {"Ag", "silver", {0.05F, 0.06F, 0.04F}, {4.483F, 3.586F, 2.657F}},

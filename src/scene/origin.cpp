@@ -8,12 +8,12 @@ namespace {
 
 double largest_of(const DVec3& v) { return std::max(v.x, std::max(v.y, v.z)); }
 
-// The largest coordinate in the box, relative to `origin`: its float is off by 2^-24 of it.
+// Returns the largest coordinate in the box relative to `origin`. Floats round by 2^-24 of it.
 double reach(const Bounds& box, const DVec3& origin) {
   return largest_of(glm::max(glm::abs(box.min - origin), glm::abs(box.max - origin)));
 }
 
-// How large the picture is at the box, in meters.
+// Returns the height of the picture at the box, in meters.
 double view_at(const Camera& camera, const Bounds& box) {
   if (const auto* orthographic = std::get_if<OrthographicCamera>(&camera))
     return orthographic->height;
@@ -23,8 +23,8 @@ double view_at(const Camera& camera, const Bounds& box) {
          std::tan(glm::radians(perspective.fov) / 2);
 }
 
-// How much an origin costs in precision: the error of the box that suffers most, over its size or
-// that of the picture there, whichever is larger.
+// Returns how much precision an origin costs: the largest error of all boxes, relative to the size
+// of the box or of the picture at the box, whichever is larger.
 double harm_of(const DVec3& origin, const Camera& camera, std::span<const Bounds> boxes) {
   double harm = 0;
   for (const Bounds& box : boxes) {
@@ -41,19 +41,19 @@ bool is_finite(const DVec3& v) {
 }  // namespace
 
 DVec3 choose_origin(const Camera& camera, std::span<const Bounds> boxes) {
-  Bounds all;
-  for (const Bounds& box : boxes) all.extend(box);
-  const DVec3 center = all.center();
+  Bounds scene;
+  for (const Bounds& box : boxes) scene.extend(box);
+  const DVec3 center = scene.center();
   if (!is_finite(center)) return DVec3(0);
-  // Digits to spare: a mesh of a 64th of the scene loses nothing that shows.
+  // Floats have digits to spare: a mesh of a 64th of the scene's size shows no loss.
   constexpr double harmless = 64;
   DVec3 best = center;
   double harm = harm_of(center, camera, boxes) / harmless;
   const auto consider = [&](const DVec3& origin) {
-    const double other = harm_of(origin, camera, boxes);
-    if (!is_finite(origin) || !(other < harm)) return;
+    const double its_harm = harm_of(origin, camera, boxes);
+    if (!is_finite(origin) || !(its_harm < harm)) return;
     best = origin;
-    harm = other;
+    harm = its_harm;
   };
   std::visit(
       [&](const auto& model) {
@@ -65,7 +65,7 @@ DVec3 choose_origin(const Camera& camera, std::span<const Bounds> boxes) {
 }
 
 bool loses_shape(const Bounds& box, const DVec3& origin) {
-  // Fewer than 64 floats across are steps that one sees.
+  // With fewer than 64 floats across, steps are visible.
   constexpr double spacing = 0x1p-23;
   return largest_of(box.max - box.min) < 64 * spacing * reach(box, origin);
 }

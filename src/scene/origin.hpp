@@ -1,4 +1,4 @@
-// Where world coordinates have their origin, and which meshes are too far from it.
+// Chooses the origin of world coordinates, and finds meshes that are too far from it.
 #pragma once
 
 #include <pah/scene/camera.hpp>
@@ -10,11 +10,11 @@
 
 namespace pah {
 
-// The center of all boxes, one for each instance, unless it is so far from some of them, for their
-// size and for how large they are seen, that the camera or what it looks at is a better one.
+// Returns the center of the boxes of all instances. If a box would lose visible precision there,
+// returns the camera's position or target if that loses less.
 [[nodiscard]] DVec3 choose_origin(const Camera& camera, std::span<const Bounds> boxes);
 
-// Whether floats about `origin` are too coarse for the shape of what is in the box.
+// Returns whether floats relative to `origin` are too coarse for the shape in the box.
 [[nodiscard]] bool loses_shape(const Bounds& box, const DVec3& origin);
 
 }  // namespace pah

@@ -22,14 +22,15 @@ void require(bool condition, const char* message) {
   if (!condition) throw std::invalid_argument(message);
 }
 
-// A uniform number in [0, 1) that depends on its arguments alone: a counter through the finalizer
-// of SplitMix64 (Steele, Lea, Flood, "Fast Splittable Pseudorandom Number Generators", 2014).
+// Returns a uniform number in [0, 1) that depends on its arguments alone: a counter hashed by the
+// finalizer of SplitMix64 (Steele, Lea, Flood, "Fast Splittable Pseudorandom Number Generators",
+// 2014).
 double random_number(std::uint64_t seed, std::uint64_t index, std::uint64_t dimension) {
   const auto mix = [](std::uint64_t z) { return mix_bits(z + 0x9E3779B97F4A7C15ULL); };
   return static_cast<double>(mix(mix(mix(seed) ^ index) ^ dimension) >> 11) * 0x1p-53;
 }
 
-// What each random number of a copy is for.
+// The uses of random numbers in a copy.
 enum Draw : std::uint64_t { draw_triangle, draw_u, draw_v, draw_angle, draw_scale };
 
 glm::dmat4x3 translation(const DVec3& t) { return {DVec3{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, t}; }
@@ -40,11 +41,11 @@ glm::dmat4x3 rotation_about_y(double radians) {
   return {DVec3{c, 0, -s}, {0, 1, 0}, {s, 0, c}, {0, 0, 0}};
 }
 
-// A rotation that takes +y to the unit vector n: a basis about n with the axes renamed.
+// Returns a rotation that takes +y to the unit vector n: a basis about n with permuted axes.
 glm::dmat4x3 rotation_to(const DVec3& n) {
   const DMat3 basis = basis_about(DVec3(n.z, n.x, n.y));
-  const auto renamed = [](const DVec3& v) { return DVec3(v.y, v.z, v.x); };
-  return {renamed(basis[1]), n, renamed(basis[0]), {0, 0, 0}};
+  const auto permuted = [](const DVec3& v) { return DVec3(v.y, v.z, v.x); };
+  return {permuted(basis[1]), n, permuted(basis[0]), {0, 0, 0}};
 }
 
 glm::dmat4x3 scaling(double s) { return {DVec3{s, 0, 0}, {0, s, 0}, {0, 0, s}, {0, 0, 0}}; }
@@ -84,11 +85,11 @@ std::vector<glm::dmat4x3> place_copies(const RingRepeat& ring) {
   return copies;
 }
 
-// Accepts points that keep their distance from all points accepted before.
+// Accepts points that keep the minimum distance from all points accepted before.
 class Spacing {
  public:
-  // `extent` is the largest size of the region of the points: cells of at least 2^-20 of it keep
-  // cell numbers small.
+  // `extent` is the largest size of the region of the points. Cells are at least 2^-20 of it, so
+  // that cell numbers stay small.
   Spacing(double distance, double extent)
       : distance_(distance), cell_(std::max(distance, extent * 0x1p-20)) {}
 
@@ -127,8 +128,8 @@ struct ScatterPoint {
   DVec3 normal;
 };
 
-// `sample(i)` is the i-th random point of the surface. With a minimum distance, candidates are
-// drawn until `count` are placed or 30 in a row per copy found no room.
+// `sample(i)` returns the i-th random point of the surface. With a minimum distance, draws
+// candidates until `count` are placed, but at most 30 per copy.
 template <class Sample>
 std::vector<glm::dmat4x3> scatter_points(const ScatterOptions& options, double extent,
                                          const Sample& sample) {
@@ -168,7 +169,7 @@ glm::dmat4x3 compose(const glm::dmat4x3& c_from_b, const glm::dmat4x3& b_from_a)
 
 std::uint64_t count_of(const Repeat& repeat) {
   if (const auto* grid = std::get_if<GridRepeat>(&repeat)) {
-    // Saturates: a product of three 32-bit numbers may not fit.
+    // Saturates: the product of three 32-bit numbers may not fit.
     const std::uint64_t layer = std::uint64_t{grid->count.x} * grid->count.y;
     if (grid->count.z != 0 && layer > UINT64_MAX / grid->count.z) return UINT64_MAX;
     return layer * grid->count.z;
@@ -197,29 +198,30 @@ std::vector<glm::dmat4x3> scatter(const Mesh& mesh, const glm::dmat4x3& world_fr
   const auto corner = [&](std::uint32_t vertex) {
     return world_from_object * glm::dvec4(DVec3(mesh.positions[vertex]), 1);
   };
-  // An instance that mirrors keeps its outside outside.
+  // Mirroring flips the computed normals.
   const double side = std::copysign(1.0, glm::determinant(DMat3(world_from_object)));
   DVec3 low{HUGE_VAL};
   DVec3 high{-HUGE_VAL};
-  std::vector<double> areas;  // up to and including each triangle
-  areas.reserve(mesh.triangles.size());
+  std::vector<double> running;  // surface area up to and including each triangle
+  running.reserve(mesh.triangles.size());
   double total = 0;
   for (const UVec3& t : mesh.triangles) {
     const DVec3 a = corner(t.x);
     const DVec3 b = corner(t.y);
     const DVec3 c = corner(t.z);
     total += glm::length(scaled_normal(a, b, c));
-    areas.push_back(total);
+    running.push_back(total);
     low = glm::min(low, glm::min(a, glm::min(b, c)));
     high = glm::max(high, glm::max(a, glm::max(b, c)));
   }
-  require(total > 0 && std::isfinite(total), "the mesh to scatter over has no area");
+  require(total > 0 && std::isfinite(total), "the mesh to scatter over has no surface area");
   const DVec3 extent = high - low;
   return scatter_points(
       options, std::max(extent.x, std::max(extent.y, extent.z)), [&](std::uint64_t i) {
-        // The first triangle whose running area exceeds the draw: never one without area.
+        // The first triangle whose running total exceeds the draw never has surface area 0.
         const double draw = random_number(options.seed, i, draw_triangle) * total;
-        const auto at = std::upper_bound(areas.begin(), areas.end() - 1, draw) - areas.begin();
+        const auto at =
+            std::upper_bound(running.begin(), running.end() - 1, draw) - running.begin();
         const UVec3& t = mesh.triangles[static_cast<std::size_t>(at)];
         const DVec3 a = corner(t.x);
         const DVec3 b = corner(t.y);

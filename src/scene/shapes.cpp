@@ -7,7 +7,7 @@
 namespace pah {
 namespace {
 
-// Lengths outside of this range would overflow or vanish as squares of floats.
+// Squares of lengths outside this range would overflow or underflow as floats.
 constexpr double min_length = 1e-18;
 constexpr double max_length = 1e18;
 
@@ -22,8 +22,8 @@ void require_count(int value, int low, int high, const char* name) {
                                 std::to_string(high) + "]");
 }
 
-// Points of the unit circle in the xz plane, from +x towards -z. The last is the first again, to
-// the last bit, so that seams close.
+// Returns points of the unit circle in the xz plane, from +x towards -z. The last equals the first
+// to the last bit, so that seams close.
 std::vector<DVec3> circle(int segments) {
   std::vector<DVec3> points;
   points.reserve(static_cast<std::size_t>(segments) + 1);
@@ -42,9 +42,9 @@ std::uint32_t add_vertex(Mesh& mesh, const DVec3& position, const DVec3& normal,
   return static_cast<std::uint32_t>(mesh.positions.size() - 1);
 }
 
-// Columns x rows quads whose vertices, (columns + 1) * (rows + 1) from `first` on, run first to
-// the right, then up. Where the lowest row is a point, vertex i belongs to quad i alone; where the
-// highest is, vertex i + 1 does.
+// Adds columns x rows quads. Their (columns + 1) * (rows + 1) vertices start at `first` and run to
+// the right, then up. If the lowest row of vertices is a point, its vertex i belongs to quad i
+// alone; if the highest is, its vertex i + 1 does.
 void add_grid(Mesh& mesh, std::uint32_t first, int columns, int rows, bool point_below = false,
               bool point_above = false) {
   const auto stride = static_cast<std::uint32_t>(columns) + 1;
@@ -59,7 +59,7 @@ void add_grid(Mesh& mesh, std::uint32_t first, int columns, int rows, bool point
   }
 }
 
-// A disk at height y whose normal is up * (0, 1, 0), up = 1 or -1.
+// Adds a disk at height y whose normal is up * (0, 1, 0), up = 1 or -1.
 void add_disk(Mesh& mesh, const std::vector<DVec3>& unit, double radius, double y, double up) {
   const DVec3 normal{0, up, 0};
   const std::uint32_t center = add_vertex(mesh, {0, y, 0}, normal, {0.5, 0.5});
@@ -96,7 +96,7 @@ Mesh make(const DiskShape& shape) {
 Mesh make(const BoxShape& shape) {
   for (int k = 0; k < 3; ++k) require_length(shape.size[k], "size");
   Mesh mesh;
-  // Per face: its normal, and the directions of u and v, with u x v = normal.
+  // For each face, its normal and the directions of u and v, with u x v = normal.
   const DVec3 faces[6][3] = {
       {{1, 0, 0}, {0, 0, -1}, {0, 1, 0}}, {{-1, 0, 0}, {0, 0, 1}, {0, 1, 0}},
       {{0, 1, 0}, {1, 0, 0}, {0, 0, -1}}, {{0, -1, 0}, {1, 0, 0}, {0, 0, 1}},
@@ -122,7 +122,7 @@ Mesh make(const SphereShape& shape) {
     const bool pole = row == 0 || row == shape.rings;
     const double angle = std::numbers::pi * row / shape.rings;
     const double ring = pole ? 0 : std::sin(angle);
-    // At a pole, u is that of the middle of the one quad that the vertex belongs to.
+    // A vertex at a pole belongs to one quad and has the u of that quad's middle.
     const double shift = row == 0 ? 0.5 : pole ? -0.5 : 0;
     for (int i = 0; i <= shape.segments; ++i) {
       const DVec3 normal = ring * unit[static_cast<std::size_t>(i)] - DVec3{0, std::cos(angle), 0};
@@ -169,7 +169,7 @@ Mesh make(const ConeShape& shape) {
     add_vertex(mesh, shape.radius * out - DVec3{0, 0.5 * shape.height, 0}, normal_along(out),
                {static_cast<double>(i) / shape.segments, 0});
   }
-  // An apex per segment, with the normal of the segment's middle.
+  // Each segment has an apex of its own, with the normal of the segment's middle.
   for (int i = 0; i <= shape.segments; ++i) {
     const double middle = 2 * std::numbers::pi * (i - 0.5) / shape.segments;
     add_vertex(mesh, {0, 0.5 * shape.height, 0},
@@ -236,11 +236,11 @@ Mesh make(const HeightFieldShape& shape) {
   mesh.uvs.reserve(columns * rows);
   mesh.triangles.reserve(2 * (columns - 1) * (rows - 1));
   for (std::size_t row = 0; row < rows; ++row) {
-    const std::size_t z = rows - 1 - row;  // the grid runs up, that is towards -z
+    const std::size_t z = rows - 1 - row;  // the grid's rows run towards -z
     const double v = static_cast<double>(row) / static_cast<double>(rows - 1);
     for (std::size_t x = 0; x < columns; ++x) {
       const double u = static_cast<double>(x) / static_cast<double>(columns - 1);
-      // Central differences, one-sided at the border.
+      // Slopes are central differences, one-sided at the border.
       const std::size_t x0 = x > 0 ? x - 1 : x;
       const std::size_t x1 = x + 1 < columns ? x + 1 : x;
       const std::size_t z0 = z > 0 ? z - 1 : z;

@@ -12,8 +12,8 @@
 namespace pah {
 namespace {
 
-// What goes wrong with an instance, found in parallel: reported is the last of these of the lowest
-// instance, so that the message does not depend on the threads.
+// Faults of an instance, found in parallel. The message names the first faulty instance and the
+// last of its faults in this order, so that it does not depend on the threads.
 enum class Fault : std::uint8_t { none, index, position, normal, uv };
 
 const char* text_of(Fault fault) {
@@ -38,11 +38,11 @@ const char* text_of(Fault fault) {
 
 DVec3 transform_point(const glm::dmat4x3& m, const Vec3& p) { return m * glm::dvec4(DVec3(p), 1); }
 
-// Vertices or triangles that are worth a task.
+// Vertices or triangles in a task.
 constexpr std::size_t grain = 4096;
 
-// The box of the transformed triangles, or `invalid` set where an index is out of range. Unused
-// vertices do not count.
+// Returns the box of the transformed triangles, without unused vertices. Sets `invalid` if an index
+// is out of range.
 Bounds bounds_of(const Mesh& mesh, const glm::dmat4x3& world_from_object,
                  std::atomic<bool>& invalid) {
   return parallel_fold(
@@ -65,8 +65,8 @@ Bounds bounds_of(const Mesh& mesh, const glm::dmat4x3& world_from_object,
       [](Bounds& a, const Bounds& b) { a.extend(b); });
 }
 
-// The linear part divided by the power of 2 that bounds it, which changes no direction and keeps
-// products of three entries from overflowing.
+// Returns the linear part divided by the power of 2 that bounds it. No direction changes, and
+// products of three entries cannot overflow.
 DMat3 normalized_linear(const glm::dmat4x3& m) {
   double largest = 0;
   for (int column = 0; column < 3; ++column)
@@ -98,7 +98,7 @@ void require_valid(const Scene& scene, const Instance& instance) {
   if (!std::isfinite(det) || det == 0) fail(mesh, "its transform is not finite or flattens it");
 }
 
-// Where an instance's data go in the World.
+// The position of an instance's data in the arrays of the World.
 struct Slot {
   std::uint32_t first_position = 0;
   std::uint32_t first_triangle = 0;
@@ -107,8 +107,8 @@ struct Slot {
 Fault copy_vertices(const Mesh& mesh, const glm::dmat4x3& world_from_object, const Slot& slot,
                     World& world) {
   const DMat3 linear = normalized_linear(world_from_object);
-  // Normals go by the inverse transpose: the matrix of cofactors over the determinant, whose sign
-  // alone matters.
+  // Normals transform by the inverse transpose: the matrix of cofactors over the determinant. Only
+  // the determinant's sign matters.
   const double sign = std::copysign(1.0, glm::determinant(linear));
   const DMat3 normal_matrix{sign * glm::cross(linear[1], linear[2]),
                             sign * glm::cross(linear[2], linear[0]),
@@ -151,7 +151,7 @@ void copy_triangles(const Mesh& mesh, bool mirrored, const Slot& slot, std::uint
   });
 }
 
-// Places every instance in the arrays of the World, which it sizes.
+// Resizes the arrays of the World, and assigns each instance its slot in them.
 std::vector<Slot> lay_out(const Scene& scene, World& world) {
   constexpr std::uint64_t limit = 0xFFFFFFFEULL;
   std::uint64_t positions = 0;
@@ -187,7 +187,12 @@ std::vector<Slot> lay_out(const Scene& scene, World& world) {
   return slots;
 }
 
-// Of every instance.
+void throw_first(const Scene& scene, const std::vector<Fault>& faults) {
+  for (std::size_t i = 0; i < faults.size(); ++i)
+    if (faults[i] != Fault::none) fail(scene.meshes[scene.instances[i].mesh], text_of(faults[i]));
+}
+
+// Returns the bounding boxes of all instances.
 std::vector<Bounds> boxes_of(const Scene& scene) {
   std::vector<Bounds> boxes(scene.instances.size());
   std::vector<Fault> faults(scene.instances.size(), Fault::none);
@@ -197,8 +202,7 @@ std::vector<Bounds> boxes_of(const Scene& scene) {
     boxes[i] = bounds_of(scene.meshes[instance.mesh], instance.world_from_object, invalid);
     if (invalid) faults[i] = Fault::index;
   });
-  for (std::size_t i = 0; i < boxes.size(); ++i)
-    if (faults[i] != Fault::none) fail(scene.meshes[scene.instances[i].mesh], text_of(faults[i]));
+  throw_first(scene, faults);
   return boxes;
 }
 
@@ -268,8 +272,7 @@ World make_world(const Scene& scene) {
     faults[i] = copy_vertices(mesh, instance.world_from_object, slots[i], world);
     copy_triangles(mesh, mirrored, slots[i], static_cast<std::uint32_t>(i), world);
   });
-  for (std::size_t i = 0; i < faults.size(); ++i)
-    if (faults[i] != Fault::none) fail(scene.meshes[scene.instances[i].mesh], text_of(faults[i]));
+  throw_first(scene, faults);
   world.bounds = bounds_of(world.triangles());
   return world;
 }

@@ -105,7 +105,7 @@ TEST_CASE("A device stays a device, and an open file keeps what it holds") {
   pah::write_text_file("/dev/null", "x");
   CHECK(fs::is_character_file("/dev/null"));
 
-  // As after a shell's `> shared`, which is what /dev/stdout may lead to.
+  // /dev/stdout leads to such a file after a shell's `> shared`.
   std::FILE* shared = std::fopen("shared", "w");
   REQUIRE(shared != nullptr);
   std::fputs("before ", shared);

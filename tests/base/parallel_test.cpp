@@ -66,7 +66,7 @@ TEST_CASE("Tasks may run tasks, and waiting ends after the last", "[threads]") {
 // Hidden: it is for the thread sanitizer to find.
 TEST_CASE("A planted data race", "[.race]") {
   std::size_t last = 0;
-  // Either waits for the other, so that there are two threads; it orders nothing.
+  // Each task waits for the other, so that two threads run. Relaxed atomics order nothing.
   std::atomic<int> begun = 0;
   const auto give_up = std::chrono::steady_clock::now() + std::chrono::seconds(30);
   parallel_for(2, 1, [&](std::size_t i) {

@@ -17,7 +17,7 @@ TEST_CASE("sRGB and linear light convert by known values") {
   CHECK(srgb_from_linear(-0.5F) == -0.5F * 12.92F);
 }
 
-TEST_CASE("sRGB codes of 16 bits survive the way to linear light and back") {
+TEST_CASE("16-bit sRGB codes survive conversion to linear light and back") {
   int wrong = 0;
   double last = -1;
   for (int code = 0; code < 65536; ++code) {

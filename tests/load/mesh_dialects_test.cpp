@@ -91,7 +91,7 @@ std::string binary_ply(const std::string& real, const std::string& count, const 
 
 }  // namespace
 
-TEST_CASE("OBJ dialects") {
+TEST_CASE("OBJ dialects load") {
   const TemporaryFolder folder;
   const std::string v = "v 0.5 0 0\nv 1.25 0 0\nv 1.25 1 -2\nv 0.5 1 -2\n";
   const std::string f = "f 1 2 3 4\n";
@@ -142,7 +142,7 @@ TEST_CASE("OBJ dialects") {
   }
 }
 
-TEST_CASE("PLY dialects") {
+TEST_CASE("PLY dialects load") {
   const TemporaryFolder folder;
   const std::string head = "ply\nformat ascii 1.0\n";
   const std::string xyz = "property float x\nproperty float y\nproperty float z\n";
@@ -187,7 +187,7 @@ TEST_CASE("PLY dialects") {
   }
 }
 
-TEST_CASE("PLY: a first byte that looks like a line's end is the vertex's") {
+TEST_CASE("A PLY vertex may begin with a byte that looks like a line end") {
   const TemporaryFolder folder;
   for (const std::string line_end : {"\n", "\r\n", "\r"})
     for (const char first : {'\n', '\r', ' '}) {
@@ -204,7 +204,7 @@ TEST_CASE("PLY: a first byte that looks like a line's end is the vertex's") {
     }
 }
 
-TEST_CASE("PLY: texture coordinates of vertices, under any name, and of corners") {
+TEST_CASE("PLY texture coordinates load from vertices, under any name, and from corners") {
   const TemporaryFolder folder;
   const std::string head = "ply\nformat ascii 1.0\nelement vertex 4\n";
   const std::string xyz = "property float x\nproperty float y\nproperty float z\n";
@@ -232,7 +232,7 @@ TEST_CASE("PLY: texture coordinates of vertices, under any name, and of corners"
   CHECK(mesh.uvs[mesh.triangles[1].z] == Vec2(0.5F, 1));
 }
 
-TEST_CASE("STL dialects") {
+TEST_CASE("STL dialects load") {
   const TemporaryFolder folder;
   const auto facet = [](int a, int b, int c) {
     std::string text = "facet normal 0 0 0\n outer loop\n";

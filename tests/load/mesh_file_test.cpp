@@ -112,7 +112,7 @@ TEST_CASE("A tetrahedron is the same in every format") {
   }
 }
 
-TEST_CASE("OBJ: polygons, seams, normals, negative indices, joined lines, lines and points") {
+TEST_CASE("OBJ polygons, seams, normals, negative indices and joined lines load") {
   const TemporaryFolder folder;
   const auto file = write(folder, "a.obj",
                           "# a folded sheet\r\nv 0 0 0\r\nv 1 0 0\r\nv 1 1 0\r\nv 0 1 0\r\n"
@@ -178,7 +178,7 @@ TEST_CASE("Polygons are cut into triangles of the same area and winding") {
     }
 }
 
-TEST_CASE("OBJ: errors have lines and columns") {
+TEST_CASE("OBJ errors have lines and columns") {
   const TemporaryFolder folder;
   const auto check = [&](const std::string& text, const std::string& message, int line,
                          int column) {
@@ -219,7 +219,7 @@ TEST_CASE("OBJ: errors have lines and columns") {
         std::string());
 }
 
-TEST_CASE("OBJ: endless polygons and too many triangles") {
+TEST_CASE("OBJ files with endless polygons or too many triangles are errors") {
   const TemporaryFolder folder;
   std::string text = tetrahedron_positions + "f";
   for (int i = 0; i < 10001; ++i) text += " " + std::to_string(i % 4 + 1);
@@ -238,7 +238,7 @@ TEST_CASE("OBJ: endless polygons and too many triangles") {
   CHECK(has(error_of(folder / "b.obj", options).what(), "larger than"));
 }
 
-TEST_CASE("PLY and STL: what is broken is said") {
+TEST_CASE("Broken PLY and STL files are errors") {
   const TemporaryFolder folder;
   const MeshFileError nan_error = error_of(write(folder, "a.ply", ascii_ply("0 0 nan")));
   CHECK(has(nan_error.what(), "'nan' is not a finite number"));
@@ -281,7 +281,7 @@ TEST_CASE("Only known formats are read, by their names") {
   CHECK_FALSE(error_of(write(folder, "b.obj", binary_stl())).what() == std::string());
 }
 
-TEST_CASE("OBJ: materials") {
+TEST_CASE("OBJ materials load") {
   const TemporaryFolder folder;
   std::filesystem::create_directory(folder / "maps");
   write(folder, "maps/wood.png", "never opened");
@@ -325,7 +325,7 @@ TEST_CASE("OBJ: materials") {
   CHECK_THROWS_WITH(read_mesh_file(file), contains_text("there is no image 'maps/wood.png'"));
 }
 
-TEST_CASE("OBJ: materials that begin with no name") {
+TEST_CASE("OBJ materials that begin without a name are ignored") {
   const TemporaryFolder folder;
   const auto file = write(
       folder, "a.obj", "mtllib a.mtl\n" + tetrahedron_positions + "usemtl a\n" + tetrahedron_faces);

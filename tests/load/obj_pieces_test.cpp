@@ -134,7 +134,7 @@ class RandomObj {
 
 }  // namespace
 
-TEST_CASE("OBJ: where a file is cut into pieces changes nothing") {
+TEST_CASE("The cuts between OBJ pieces do not change the mesh") {
   const TemporaryFolder folder;
   const auto file = folder / "a.obj";
   constexpr std::size_t whole = 1U << 20;
@@ -153,7 +153,7 @@ TEST_CASE("OBJ: where a file is cut into pieces changes nothing") {
   CHECK(well == 60);
 }
 
-TEST_CASE("OBJ: of the errors of all pieces, the first in the file is told") {
+TEST_CASE("The first error in an OBJ file is reported, whichever piece it is in") {
   const TemporaryFolder folder;
   const auto file = folder / "a.obj";
   constexpr std::size_t whole = 1U << 20;
@@ -169,7 +169,7 @@ TEST_CASE("OBJ: of the errors of all pieces, the first in the file is told") {
   }
 }
 
-TEST_CASE("OBJ: a line without end is an error behind what stands before it") {
+TEST_CASE("An endless OBJ line does not hide an earlier error") {
   const TemporaryFolder folder;
   const auto file = folder / "a.obj";
   std::ofstream(file, std::ios::binary) << "v 1 2 3\nv 4 5 6\n#" << std::string(40U << 20, ' ');
@@ -178,7 +178,7 @@ TEST_CASE("OBJ: a line without end is an error behind what stands before it") {
   CHECK(read_in_pieces(file, 1U << 17).error.substr(0, 4) == "2:5:");
 }
 
-TEST_CASE("OBJ: equal vertices are one, however many there are, in the order of their use") {
+TEST_CASE("Equal OBJ vertices become one, in the order of their first use") {
   constexpr int side = 100;
   std::string text;
   for (int copy = 0; copy < 2; ++copy)

@@ -1,4 +1,4 @@
-// Derived areas hold the rays that they are for; declared ones are where they were declared.
+// Derived areas hold the rays of their light; declared areas stay where they were declared.
 #include <algorithm>
 #include <pah/scene/areas.hpp>
 #include <pah/scene/shapes.hpp>
@@ -11,7 +11,7 @@ using namespace pah;
 
 namespace {
 
-// A box of 4 x 2 x 6 about `center`.
+// Returns a scene with a box of 4 x 2 x 6 about `center`.
 Scene scene_about(const DVec3& center) {
   Scene scene;
   scene.materials.emplace_back();
@@ -49,7 +49,7 @@ bool hold(const std::vector<SceneArea>& areas, const Vec3& point) {
   return false;
 }
 
-// How far along a ray the box ends; negative if the ray misses it.
+// Returns the distance at which a ray leaves the box; negative if it misses the box.
 double leaves_box(const Ray& ray, const Aabb& box) {
   double near = 0;
   double far = std::numeric_limits<double>::infinity();
@@ -83,14 +83,14 @@ TEST_CASE("A point light's frusta hold every segment that leads to it from the s
       for (const SceneArea& area : own) {
         const Frustum& frustum = std::get<PointArea>(area.area).frustum;
         CHECK(frustum.near == 0);
-        // As segments are aimed at it.
+        // Segments aim at the position rounded to float.
         const auto& model = std::get<PointLight>(world.lights[light].model);
         CHECK(contains(frustum, Vec3(model.position)));
       }
       int outside = 0;
       for (int i = 0; i < 2000; ++i) {
         Vec3 point = random_point(world.bounds, random);
-        // Often on a face, from where offset_point moves it off.
+        // Half of the points lie just outside a face, as offset_point moves them.
         if (i % 2 == 0) point.y = std::nextafterf(world.bounds.max.y, 2 * world.bounds.max.y);
         outside += hold(own, point) ? 0 : 1;
       }

@@ -56,7 +56,7 @@ TEST_CASE("Scattering depends on its seed alone") {
   const auto a = scatter(DVec2{4, 2}, options);
   CHECK(a == scatter(DVec2{4, 2}, options));
   REQUIRE(a.size() == 100);
-  // More copies leave the first where they are.
+  // Adding copies does not move the first ones.
   options.count = 200;
   const auto b = scatter(DVec2{4, 2}, options);
   CHECK(std::equal(a.begin(), a.end(), b.begin()));

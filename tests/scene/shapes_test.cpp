@@ -12,8 +12,8 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-// Of a regular polygon with n corners on the unit circle: what a disk of triangles covers.
-double polygon_area(int n) { return 0.5 * n * std::sin(2 * pi / n); }
+// Surface area of a regular polygon with n corners on the unit circle.
+double polygon_measure(int n) { return 0.5 * n * std::sin(2 * pi / n); }
 
 HeightFieldShape hill(int columns, int rows) {
   HeightFieldShape shape;
@@ -46,9 +46,9 @@ TEST_CASE("Shapes have sound indices, unit normals on the outside and texture co
       const Vec3 a = mesh.positions[t.x], b = mesh.positions[t.y], c = mesh.positions[t.z];
       const Vec3 normal = glm::cross(b - a, c - a);
       REQUIRE(glm::length(normal) > 0);
-      const float area = (mesh.uvs[t.y].x - mesh.uvs[t.x].x) * (mesh.uvs[t.z].y - mesh.uvs[t.x].y) -
+      const float side = (mesh.uvs[t.y].x - mesh.uvs[t.x].x) * (mesh.uvs[t.z].y - mesh.uvs[t.x].y) -
                          (mesh.uvs[t.z].x - mesh.uvs[t.x].x) * (mesh.uvs[t.y].y - mesh.uvs[t.x].y);
-      REQUIRE(area > 0);  // pictures are not mirrored
+      REQUIRE(side > 0);  // pictures are not mirrored
       for (int k = 0; k < 3; ++k) {
         const Vec3 n = mesh.normals[t[k]];
         REQUIRE(std::abs(glm::length(n) - 1) < 1e-6F);
@@ -77,14 +77,14 @@ TEST_CASE("Closed shapes are closed to the last bit") {
 
 TEST_CASE("Areas and volumes are those of the inscribed polyhedra") {
   CHECK(area_of(make_mesh(RectangleShape{{2, 3}})) == Approx(6));
-  CHECK(area_of(make_mesh(DiskShape{2, 7})) == Approx(4 * polygon_area(7)));
+  CHECK(area_of(make_mesh(DiskShape{2, 7})) == Approx(4 * polygon_measure(7)));
   CHECK(volume_of(make_mesh(BoxShape{{1, 2, 3}})) == Approx(6));
   CHECK(area_of(make_mesh(BoxShape{{1, 2, 3}})) == Approx(22));
-  CHECK(volume_of(make_mesh(CylinderShape{2, 3, 9})) == Approx(12 * polygon_area(9)));
-  CHECK(volume_of(make_mesh(ConeShape{2, 3, 9})) == Approx(4 * polygon_area(9)));
+  CHECK(volume_of(make_mesh(CylinderShape{2, 3, 9})) == Approx(12 * polygon_measure(9)));
+  CHECK(volume_of(make_mesh(ConeShape{2, 3, 9})) == Approx(4 * polygon_measure(9)));
   // A torus of polygons: each slice between two rings is a prism of the tube's polygon.
   CHECK(volume_of(make_mesh(TorusShape{3, 1, 512, 9})) ==
-        Approx(2 * pi * 3 * polygon_area(9)).epsilon(1e-4));
+        Approx(2 * pi * 3 * polygon_measure(9)).epsilon(1e-4));
   const double exact = 4.0 / 3 * pi;
   const double coarse = exact - volume_of(make_mesh(SphereShape{1, 64, 32}));
   const double fine = exact - volume_of(make_mesh(SphereShape{1, 128, 64}));

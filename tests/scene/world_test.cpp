@@ -25,7 +25,7 @@ Scene scene_of(const Shape& shape, const glm::dmat4x3& transform = glm::dmat4x3{
 glm::dmat4x3 translation(const DVec3& t) { return {DVec3{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, t}; }
 glm::dmat4x3 scaling(const DVec3& s) { return {DVec3{s.x, 0, 0}, {0, s.y, 0}, {0, 0, s.z}, {}}; }
 
-// Shading normals stand on the side of the geometric ones.
+// Shading normals lie on the same side as geometric normals.
 bool normals_agree(const World& world) {
   for (const UVec3& t : world.indices) {
     const Vec3 a = world.positions[t.x], b = world.positions[t.y], c = world.positions[t.z];
@@ -188,28 +188,28 @@ TEST_CASE("A camera inside a closed mesh without light causes a warning") {
   CHECK(warnings(scene) == std::vector<std::string>{
                                "the camera is inside mesh 'thing', which is closed: no light gets "
                                "in"});
-  SECTION("unless it is outside") {
+  SECTION("A camera outside causes none") {
     camera.position.x = 3.6;
     scene.camera = camera;
     CHECK(warnings(scene).empty());
   }
-  SECTION("unless there is a lamp with it") {
+  SECTION("A lamp inside prevents it") {
     scene.lights.push_back({"bulb", PointLight{{3, 0.4, 0}}});
     CHECK(warnings(scene).empty());
   }
-  SECTION("a lamp outside does not help") {
+  SECTION("A lamp outside does not prevent it") {
     scene.lights.push_back({"bulb", PointLight{{3, 0.6, 0}}});
     CHECK(warnings(scene).size() == 1);
   }
-  SECTION("unless light comes through") {
+  SECTION("Glass prevents it") {
     scene.materials[0].model = GlassMaterial{};
     CHECK(warnings(scene).empty());
   }
-  SECTION("unless a side is open") {
+  SECTION("An opening prevents it") {
     scene.meshes[0].triangles.pop_back();
     CHECK(warnings(scene).empty());
   }
-  SECTION("mirrored, too") {
+  SECTION("A mirrored object causes it too") {
     scene.instances[0].world_from_object[0] *= -1;
     CHECK(warnings(scene).size() == 1);
   }
@@ -258,7 +258,7 @@ TEST_CASE("The same one of several faults is reported every time") {
   REQUIRE(mesh.positions.size() > 30'000);
   mesh.uvs.resize(mesh.positions.size());
   for (int i = 0; i < 20; ++i) {
-    // Far apart, so that different threads find them.
+    // The faults are far apart, so that different threads find them.
     mesh.positions[1] = Vec3(NAN);
     mesh.uvs[mesh.positions.size() - 1] = Vec2(NAN);
     CHECK_THROWS_WITH(make_world(scene), contains_text("a texture coordinate is not finite"));

@@ -7,12 +7,12 @@ namespace {
 
 using namespace std::string_view_literals;
 
-// TGA has no mark of its own: its header must make sense.
+// TGA has no magic number, so the header must make sense.
 bool is_tga(std::string_view head) {
   if (head.size() < 18) return false;
   const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(head[i]); };
   const bool has_palette = byte(1) == 1;
-  const unsigned kind = byte(2) & ~8U;  // 8: run lengths
+  const unsigned kind = byte(2) & ~8U;  // 8: run-length encoding
   const unsigned bits = byte(16);
   const bool known_kind = kind == 1 ? has_palette : kind == 2 || kind == 3;
   const bool known_bits = bits == 8 || bits == 15 || bits == 16 || bits == 24 || bits == 32;
@@ -49,15 +49,15 @@ constexpr auto recognized = std::to_array<Recognized>({
 }  // namespace
 
 const PictureFormat* find_picture_format(std::string_view head) {
-  for (const Recognized& one : recognized)
-    if (one.begins(head)) return &one.format;
+  for (const Recognized& candidate : recognized)
+    if (candidate.begins(head)) return &candidate.format;
   return nullptr;
 }
 
 std::string picture_format_names() {
   std::string names;
-  for (const Recognized& one : recognized)
-    names += (names.empty() ? "" : ", ") + std::string(one.format.name);
+  for (const Recognized& known : recognized)
+    names += (names.empty() ? "" : ", ") + std::string(known.format.name);
   return names;
 }
 

@@ -1,4 +1,4 @@
-// The picture formats that are read, told apart by their first bytes.
+// The picture formats that are read, recognized by their first bytes.
 #pragma once
 
 #include <string>
@@ -7,17 +7,17 @@
 namespace pah {
 
 struct PictureFormat {
-  const char* name;    // as people know it
-  const char* reader;  // OpenImageIO's name of it
+  const char* name;    // for messages
+  const char* reader;  // OpenImageIO's name of the format
 };
 
-// As many bytes are needed to tell.
+// The number of bytes that identify every format.
 inline constexpr std::size_t picture_head_bytes = 32;
 
-// Null if the bytes begin none of the formats.
+// Returns null if the bytes begin none of the formats.
 [[nodiscard]] const PictureFormat* find_picture_format(std::string_view head);
 
-// "PNG, JPEG, ...".
+// Returns "PNG, JPEG, ...".
 [[nodiscard]] std::string picture_format_names();
 
 }  // namespace pah

@@ -7,7 +7,7 @@
 namespace pah {
 namespace {
 
-// The number in bytes [at, at + count), which must be there.
+// Returns the number in bytes [at, at + count), which must exist.
 std::uint64_t number_at(std::string_view bytes, std::size_t at, std::size_t count, bool big) {
   std::uint64_t value = 0;
   for (std::size_t i = 0; i < count; ++i)
@@ -15,7 +15,7 @@ std::uint64_t number_at(std::string_view bytes, std::size_t at, std::size_t coun
   return value;
 }
 
-// Moves bytes of a string to its front, in order.
+// Keeps ranges of a string, and moves them to its front in order.
 class Compaction {
  public:
   explicit Compaction(std::string& bytes) : bytes_(bytes) {}
@@ -60,7 +60,7 @@ ClaimedSize strip_jpeg(std::string& bytes) {
   for (;;) {
     if (bytes.size() - at < 4) fail_at_end();
     const unsigned marker = static_cast<unsigned char>(bytes[at + 1]);
-    // Not a segment, or one that holds none of what is left out: the decoder's business.
+    // Leaves the scan, and anything that is not a segment, to the decoder.
     if (bytes[at] != '\xFF' || marker == scan || marker == 0xFF) break;
     const std::uint64_t size = 2 + number_at(bytes, at + 2, 2, true);
     if (size > bytes.size() - at) fail_at_end();
@@ -69,12 +69,12 @@ ClaimedSize strip_jpeg(std::string& bytes) {
     if (frame && size >= 10)
       claimed = {number_at(bytes, at + 7, 2, true), number_at(bytes, at + 5, 2, true),
                  number_at(bytes, at + 9, 1, true)};
-    // The first of these names the format, that of Adobe the color model.
+    // APP0 names the format, APP14 (Adobe) the color model.
     const bool metadata = (marker >= app_0 && marker <= app_15) || marker == comment;
     if (!metadata || marker == app_0 || marker == app_14) kept.keep(at, at + size);
     at += size;
   }
-  // Within a scan this is always the end of the picture.
+  // Within a scan, these bytes always end the picture.
   if (bytes.find("\xFF\xD9", at) == std::string::npos) fail_at_end();
   kept.keep(at, bytes.size());
   kept.finish();
@@ -92,7 +92,7 @@ ClaimedSize strip_webp(std::string& bytes) {
 
 ClaimedSize claimed_bmp_size(std::string_view head) {
   if (head.size() < 26) fail_at_end();
-  // The oldest header has 12 bytes, and sizes of 16 bits. Rows from the top have a negative height.
+  // The oldest header has 12 bytes and 16-bit sizes. A negative height means rows from the top.
   if (number_at(head, 14, 4, false) == 12)
     return {number_at(head, 18, 2, false), number_at(head, 20, 2, false), 1};
   const auto size = [&](std::size_t at) {

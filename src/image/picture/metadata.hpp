@@ -1,5 +1,5 @@
-// A picture's bytes without its metadata: no texture needs color profiles, XMP or Exif, and their
-// decoders do not stand what is not well formed.
+// Removes metadata from a picture's bytes. Textures need no color profiles, XMP or Exif, and their
+// decoders are not robust against malformed data.
 #pragma once
 
 #include <OpenImageIO/filesystem.h>
@@ -10,20 +10,20 @@
 
 namespace pah {
 
-// What a header claims, where a reader makes room for it before it says how much.
+// The size in a header, for readers that allocate memory for it before the size can be checked.
 struct ClaimedSize {
   std::uint64_t width = 0, height = 0, channels = 0;
 };
 
-// These leave out the metadata in place. What is not well formed is left to the decoder; a file
-// that ends early throws std::runtime_error.
+// Remove the metadata in place. Malformed data are left to the decoder. Throw std::runtime_error
+// for a file that ends early.
 void strip_png(std::string& bytes);
 [[nodiscard]] ClaimedSize strip_jpeg(std::string& bytes);
 [[nodiscard]] ClaimedSize strip_webp(std::string& bytes);
 
 [[nodiscard]] ClaimedSize claimed_bmp_size(std::string_view head);
 
-// A TIFF file whose tags of metadata are read as unknown ones.
+// Opens a TIFF file in which the tags of metadata read as unknown tags.
 [[nodiscard]] std::unique_ptr<OIIO::Filesystem::IOProxy> open_tiff_without_metadata(
     const std::filesystem::path& file);
 

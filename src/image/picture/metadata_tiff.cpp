@@ -10,12 +10,12 @@ namespace {
 
 using IOFile = OIIO::Filesystem::IOFile;
 
-// A file some of whose bytes are read as others.
+// A file that replaces some bytes as they are read.
 class PatchedFile final : public IOFile {
  public:
   explicit PatchedFile(const std::string& file) : IOFile(file, IOProxy::Read) {}
 
-  // Readers may go behind the back of what calls itself a file.
+  // Readers bypass a proxy whose type is "file".
   const char* proxytype() const override { return "patched"; }
 
   void patch(std::uint64_t at, char byte) { patches_[at] = byte; }
@@ -38,7 +38,7 @@ class PatchedFile final : public IOFile {
   std::map<std::uint64_t, char> patches_;
 };
 
-// Walks the directories of a TIFF file, in which entries name what is where.
+// Walks the directories of a TIFF file, whose entries have tags.
 class Directories {
  public:
   explicit Directories(PatchedFile& file) : file_(file) {
@@ -49,7 +49,7 @@ class Directories {
   }
 
   void hide_metadata() {
-    // More levels than any mip map has.
+    // No mip map has more levels.
     constexpr std::size_t most_directories = 64;
     std::set<std::uint64_t> seen;
     std::uint64_t link = big_ ? 8 : 4;
@@ -65,10 +65,10 @@ class Directories {
   }
 
  private:
-  // Of an offset, in bytes.
+  // The size of an offset in bytes.
   [[nodiscard]] std::uint64_t word() const { return big_ ? 8 : 4; }
 
-  // Zero beyond the file's end.
+  // Returns 0 beyond the file's end.
   [[nodiscard]] std::uint64_t number(std::uint64_t at, std::uint64_t count) const {
     std::array<unsigned char, 8> bytes{};
     if (at > file_.size() ||
@@ -80,13 +80,13 @@ class Directories {
     return value;
   }
 
-  // Where the link to the next directory is.
+  // Hides the metadata tags of a directory; returns the position of the link to the next one.
   std::uint64_t hide_in(std::uint64_t directory) {
     constexpr std::uint64_t xmp = 700, iptc = 33723, photoshop = 34377, exif = 34665, icc = 34675,
                             gps = 34853;
     const std::uint64_t entry_bytes = big_ ? 20 : 12;
     const std::uint64_t first = directory + (big_ ? 8 : 2);
-    // As many as libtiff takes.
+    // libtiff reads no more entries.
     const std::uint64_t count = std::min<std::uint64_t>(number(directory, big_ ? 8 : 2), 0xFFFF);
     for (std::uint64_t i = 0; i < count; ++i) {
       const std::uint64_t at = first + i * entry_bytes;
@@ -101,7 +101,7 @@ class Directories {
 
   PatchedFile& file_;
   bool big_endian_ = false;
-  bool big_ = false;  // BigTIFF: offsets of 64 bits
+  bool big_ = false;  // BigTIFF: 64-bit offsets
 };
 
 }  // namespace

@@ -58,7 +58,7 @@ std::string read_bytes(const fs::path& file, std::uint64_t max_bytes) {
                      " are more than " + described_bytes(max_bytes) + " as RGB floats");
 }
 
-// Some readers make room for what the header claims as soon as they open the file.
+// Some readers allocate memory for the size in the header as soon as they open the file.
 void check_claim(const ClaimedSize& claimed, std::uint64_t max_bytes) {
   const double bytes = static_cast<double>(claimed.width) * static_cast<double>(claimed.height) *
                        static_cast<double>(claimed.channels) * sizeof(float);
@@ -66,7 +66,7 @@ void check_claim(const ClaimedSize& claimed, std::uint64_t max_bytes) {
     fail_by_size(claimed.width, claimed.height, claimed.channels, max_bytes);
 }
 
-// Bytes to read from, kept as long as they are needed.
+// Bytes that a MemoryFile owns and reads.
 struct Bytes {
   std::string bytes;
 };
@@ -80,7 +80,7 @@ bool reads_from_memory(std::string_view reader) {
   return reader == "png" || reader == "jpeg" || reader == "webp";
 }
 
-// What the reader shall read from; null for the file as it is.
+// Returns the proxy that the reader reads from, or null for the file itself.
 std::unique_ptr<OIIO::Filesystem::IOProxy> prepare_bytes(std::string_view reader,
                                                          const fs::path& file,
                                                          const std::string* given,
@@ -136,7 +136,8 @@ OpenPicture open_picture(const fs::path& file, std::uint64_t max_bytes,
   }
 }
 
-// An environment is decoded to RGB, and a whole tile at a time, whatever size the file claims.
+// Environments are decoded to RGB, and files are read in whole tiles, which may be larger than the
+// image.
 double decoded_bytes(const OIIO::ImageSpec& spec) {
   const double image = static_cast<double>(spec.width) * spec.height;
   const double tile = static_cast<double>(spec.tile_width) * spec.tile_height;
@@ -155,7 +156,7 @@ void check_complete(const OpenPicture& picture) {
                                           spec.z, OIIO::TypeFloat, values.data())
                : picture.input->read_scanline(spec.y + row, spec.z, OIIO::TypeFloat, values.data());
   };
-  // Rows are stored from the top or from the bottom.
+  // Reads both ends, because rows may be stored from the top or from the bottom.
   if (!read(0, 0) || !read(spec.width - 1, spec.height - 1))
     throw PictureError(reason_of(*picture.input));
 }
@@ -163,7 +164,7 @@ void check_complete(const OpenPicture& picture) {
 void read_rows(const OpenPicture& picture,
                const std::function<void(std::span<float> values)>& visit) {
   const OIIO::ImageSpec& spec = picture.spec;
-  // A row of tiles, or as many rows as an EXR file's blocks have at most.
+  // A row of tiles, or the most rows in a block of an EXR file.
   const int step = spec.tile_width > 0 ? spec.tile_height : 256;
   std::vector<float> values;
   for (int row = 0; row < spec.height; row += step) {

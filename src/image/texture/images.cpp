@@ -57,9 +57,9 @@ Vec4 as_rgba(const float* texel, int channels) {
   }
 }
 
-// Texture systems are lent to one store at a time and never destroyed: threads outlive them, and
-// OpenImageIO 2 keeps for each thread tiles and files by the address of the system, which the next
-// system at that address would take for its own.
+// Lends each texture system to one store at a time, and never destroys it. OpenImageIO 2 keeps
+// tiles and files of each thread by the address of the system. A later system at that address would
+// use them as its own.
 class SystemPool {
  public:
   static SystemPool& instance() {
@@ -75,7 +75,7 @@ class SystemPool {
     return system;
   }
 
-  // Frees its tiles; files are opened anew when they are next asked for.
+  // Frees the tiles; files are opened again at their next use.
   void give_back(OIIO::TextureSystem* system) {
     system->invalidate_all(true);
     const std::lock_guard lock(mutex_);
@@ -121,10 +121,10 @@ void CachedImages::load(TextureId id, const ImageTexture& texture) {
   entry.channels = std::min(opened.spec.nchannels, 4);
   entry.srgb = is_srgb(texture, opened.spec);
   entry.clamp = texture.clamp;
-  // A system remembers pictures of the stores before: those that are no files never come back.
+  // A system remembers pictures of earlier stores, so pictures inside files get unique names.
   static std::atomic<std::uint64_t> unnamed{0};
   const std::string id_of_bytes = texture.bytes ? std::to_string(++unnamed) + ":" : "";
-  // Not by the file's name, by which OpenImageIO would choose a reader itself.
+  // The file's own name would make OpenImageIO choose a reader itself.
   const auto handle = [&](TexelDecoding decoding) {
     const bool decode = decoding == TexelDecoding::srgb;
     const OIIO::ustring name((decode ? "colors:" : "data:") + std::to_string(id) + ":" +
@@ -147,7 +147,7 @@ Vec4 CachedImages::sample(TextureId id, bool decoded, const glm::dvec2& st,
   opt.missingcolor = black.data();
   const bool filtered = width.x > 0 || width.y > 0;
   opt.mipmode = filtered ? OIIO::TextureOpt::MipModeAniso : OIIO::TextureOpt::MipModeNoMIP;
-  // OpenImageIO counts t from the top.
+  // OpenImageIO measures t from the top.
   const glm::dvec2 p{st.x, 1 - st.y};
   const glm::dvec2 q = image.clamp ? glm::clamp(p, 0.0, 1.0) : p - glm::floor(p);
   std::array<float, 4> texel{};

@@ -1,4 +1,4 @@
-// Image textures, the part of a TextureStore that needs OpenImageIO.
+// Image textures: the part of a TextureStore that needs OpenImageIO.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +10,7 @@
 
 namespace pah {
 
-// Everything is thread-safe.
+// All functions are thread-safe.
 class TextureImages {
  public:
   TextureImages() = default;
@@ -18,19 +18,19 @@ class TextureImages {
   TextureImages& operator=(const TextureImages&) = delete;
   virtual ~TextureImages() = default;
 
-  // Opens the image and checks its size, before anything else is asked of it. Throws what is wrong
-  // with it, without naming the file.
+  // Opens the image and checks its size. Must come before all other calls for the image. Throws
+  // std::exception with a message that does not name the file.
   virtual void load(TextureId id, const ImageTexture& texture) = 0;
 
-  // About st, t = 0 being the bottom row, with colors decoded or as stored.
+  // Samples around st, where t = 0 is the bottom row, with colors decoded or as stored.
   [[nodiscard]] virtual Vec4 sample(TextureId id, bool decoded, const glm::dvec2& st,
                                     const glm::dvec2& width) const = 0;
 
-  // Throws as load() does.
+  // Returns the whole image. Throws like load().
   [[nodiscard]] virtual Image read_whole(TextureId id, const ImageTexture& texture) const = 0;
 };
 
-// Room for images with ids less than `count`.
+// Makes a store for images with ids less than `count`.
 [[nodiscard]] std::unique_ptr<TextureImages> make_texture_images(std::size_t count,
                                                                  const TextureOptions& options);
 

@@ -24,8 +24,8 @@ constexpr const char* file_attribute = "pah:file";
 constexpr const char* bytes_attribute = "pah:bytes";
 constexpr const char* srgb_attribute = "pah:srgb";
 
-// Reads through the file's own reader and hands on what that says of tiles, levels and sizes.
-// Decoded 8-bit colors become half, which keeps them apart; wider ones float.
+// Reads through the file's own reader, and passes on its tiles, levels and sizes. Decoded 8-bit
+// colors become half, which keeps them distinct; wider ones become float.
 class PictureInput final : public OIIO::ImageInput {
  public:
   const char* format_name() const override { return "pah_picture"; }
@@ -48,7 +48,7 @@ class PictureInput final : public OIIO::ImageInput {
     return picture_.input == nullptr ? 0 : picture_.input->current_miplevel();
   }
 
-  // Only the first picture of a file is ever asked for; its levels claim sizes of their own.
+  // Only the first picture of a file is used. Each of its levels has its own size in the file.
   bool seek_subimage(int subimage, int miplevel) override {
     if (subimage != 0 || picture_.input == nullptr || !picture_.input->seek_subimage(0, miplevel))
       return false;
@@ -80,7 +80,7 @@ class PictureInput final : public OIIO::ImageInput {
     try {
       const std::string* bytes = nullptr;
       config_.getattribute(bytes_attribute, OIIO::TypeDesc::PTR, static_cast<void*>(&bytes));
-      picture_.input.reset();  // before what it reads from, and before as much memory is taken
+      picture_.input.reset();  // before its proxy, and before memory for the new one is allocated
       picture_.proxy.reset();
       picture_ = open_picture(config_.get_string_attribute(file_attribute).c_str(),
                               most_picture_bytes, config_, bytes);

@@ -1,5 +1,5 @@
-// How the texture cache reads a picture: as open_picture() does, and decoding sRGB, where asked to,
-// before anything is filtered: a mip level averages light, not code values.
+// Makes the texture cache read pictures with open_picture(), and decode sRGB on request before it
+// filters: mip levels average light, not code values.
 #pragma once
 
 #include <OpenImageIO/imagecache.h>
@@ -14,8 +14,8 @@ void decode_srgb(float* texels, std::size_t count, int channels, int alpha_chann
 
 enum class TexelDecoding { none, srgb };
 
-// Makes the cache serve the picture under `name`. Its bytes, if it has any, have to live as long.
-// False if the name is taken.
+// Adds the picture to the cache under `name`; returns false if the name is taken. The picture's
+// bytes, if any, must outlive the cache's use of it.
 bool add_picture(OIIO::ImageCache& cache, const OIIO::ustring& name, const ImageTexture& picture,
                  TexelDecoding decoding);
 

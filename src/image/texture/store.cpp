@@ -15,14 +15,15 @@ struct Entry {
   bool checker = false;
   glm::dvec2 scale{1};
   glm::dvec2 offset{0};
-  Vec4 a{0}, b{0};  // of the checkerboard
+  Vec4 a{0}, b{0};  // colors of the checkerboard
 };
 
 std::string described(const std::filesystem::path& file, const std::string& reason) {
   return "cannot read texture '" + file.string() + "': " + reason;
 }
 
-// The mean over [x - w/2, x + w/2] of the square wave that is 1 on [0, 1), -1 on [1, 2), ...
+// Returns the mean over [x - w/2, x + w/2] of the square wave that is 1 on [0, 1), -1 on [1, 2),
+// ...
 double mean_square_wave(double x, double w) {
   const double low = x - w / 2;
   const double high = x + w / 2;
@@ -41,7 +42,7 @@ Vec4 sample_checker(const Entry& entry, const glm::dvec2& st, const glm::dvec2& 
 struct TextureStore::Impl {
   std::vector<Texture> textures;
   std::vector<Entry> entries;
-  std::unique_ptr<TextureImages> images;  // none if no texture is an image
+  std::unique_ptr<TextureImages> images;  // null if no texture is an image
 };
 
 TextureStore::TextureStore(std::span<const Texture> textures, const TextureOptions& options)
@@ -83,7 +84,7 @@ Vec4 TextureStore::sample(TextureId id, Vec2 uv, TextureUse use, Vec2 footprint)
   if (!std::isfinite(st.x) || !std::isfinite(st.y)) return Vec4{0};
   const glm::dvec2 width = glm::abs(glm::dvec2{footprint} * entry.scale);
   if (entry.checker) return sample_checker(entry, st, width);
-  // A file of no declared encoding holds colors or data: it depends on what it is used for.
+  // Without a declared encoding, the use decides whether the file holds colors or data.
   const bool declared =
       std::get_if<ImageTexture>(&impl_->textures[id])->color_space != ColorSpace::automatic;
   return impl_->images->sample(id, declared || use == TextureUse::color, st, width);

@@ -1,4 +1,4 @@
-// Textures made ready for look-ups; images through OpenImageIO's TextureSystem.
+// Textures ready for look-ups. Images use OpenImageIO's TextureSystem.
 #pragma once
 
 #include <cstdint>
@@ -26,32 +26,32 @@ struct TextureOptions {
   int cache_megabytes = 1024;                  // tiles held in memory
 };
 
-// What a look-up is for. Images whose encoding is not declared hold plain numbers if they are used
-// as data: roughness, opacity, normals.
+// The use of a look-up. Images without a declared encoding hold linear numbers if used as data,
+// such as roughness, opacity or normals.
 enum class TextureUse { color, data };
 
 // Look-ups are thread-safe and do not throw. Colors are linear Rec. 709.
 class TextureStore {
  public:
-  // Opens every image and checks its size before anything is decoded. Throws TextureError.
+  // Opens every image and checks its size before decoding. Throws TextureError.
   explicit TextureStore(std::span<const Texture> textures, const TextureOptions& options = {});
   ~TextureStore();
   TextureStore(TextureStore&&) noexcept;
   TextureStore& operator=(TextureStore&&) noexcept;
 
-  // The texture about (u, v), v = 0 being the image's bottom row, averaged over a footprint given
-  // in texture coordinates (0: the finest level, interpolated). Images without alpha have alpha 1;
-  // one-channel images are gray. What is not finite in the file is 0. Where the file fails to
-  // decode, or the coordinates are not finite: black.
+  // Returns the texture at (u, v), where v = 0 is the image's bottom row, averaged over a footprint
+  // in texture coordinates (0 interpolates the finest level). Images without alpha have alpha 1;
+  // one-channel images are gray. Values that are not finite are 0. Returns black if the file fails
+  // to decode or the coordinates are not finite.
   [[nodiscard]] Vec4 sample(TextureId id, Vec2 uv, TextureUse use = TextureUse::color,
                             Vec2 footprint = Vec2{0}) const noexcept;
 
-  // value times the texture, if there is one.
+  // Return the value times the texture, if there is one.
   [[nodiscard]] Vec3 color(const ColorInput& input, Vec2 uv, float footprint = 0) const noexcept;
   [[nodiscard]] float scalar(const ScalarInput& input, Vec2 uv, float footprint = 0) const noexcept;
 
-  // The whole image, without scale and offset. Throws TextureError if it cannot be decoded or is no
-  // image.
+  // Returns the whole image, without scale and offset. Throws TextureError if it cannot be decoded
+  // or is not an image.
   [[nodiscard]] Image image(TextureId id) const;
 
  private:

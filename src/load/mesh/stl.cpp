@@ -14,9 +14,9 @@ namespace pah {
 namespace {
 
 constexpr std::size_t header_bytes = 80;
-constexpr std::size_t triangle_bytes = 50;  // normal, corners, two bytes of anything
+constexpr std::size_t triangle_bytes = 50;  // normal, corners, two unused bytes
 
-// Some programs write capitals.
+// Ignores case: some programs write keywords in capitals.
 bool is(std::string_view expected, std::string_view word) {
   if (word.size() != expected.size()) return false;
   for (std::size_t i = 0; i < word.size(); ++i)
@@ -55,7 +55,7 @@ class StlReader {
     return std::move(mesh_);
   }
 
-  // Only corners count; every third ends a triangle.
+  // Reads only corners; every third ends a triangle.
   PolygonMesh read_text() {
     while (const auto line = file_.line()) {
       text_ = *line;
@@ -97,7 +97,7 @@ class StlReader {
   std::string_view text_;
 };
 
-// Binary files may begin with "solid" too; their size gives them away.
+// Binary files may begin with "solid" too, so the size decides.
 bool is_binary(const std::filesystem::path& file, const MeshFileOptions& options) {
   FileReader reader(file, options.file_bytes);
   const std::uint64_t size = reader.size();
@@ -105,8 +105,8 @@ bool is_binary(const std::filesystem::path& file, const MeshFileOptions& options
   if (head != nullptr &&
       size == header_bytes + 4 + triangle_bytes * std::uint64_t{load_u32(head + header_bytes)})
     return true;
-  FileReader again(file, options.file_bytes);
-  const auto line = again.line();
+  FileReader text_reader(file, options.file_bytes);
+  const auto line = text_reader.line();
   return !line || !is("solid", Words(without_byte_order_mark(*line)).next().substr(0, 5));
 }
 

@@ -7,8 +7,8 @@
 
 namespace pah {
 
-// Normals are left out: they are the triangles' own. Throws MeshFileError, with line and column
-// where the file is text.
+// Ignores normals: those of STL files are the triangles' geometric normals. Throws MeshFileError,
+// with line and column if the file is text.
 [[nodiscard]] PolygonMesh read_stl(const std::filesystem::path& file,
                                    const MeshFileOptions& options,
                                    std::vector<std::string>& warnings);

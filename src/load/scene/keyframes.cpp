@@ -36,7 +36,7 @@ std::optional<double> number_of(std::string_view text) {
 
 using Values = std::map<double, YamlRef>;  // by frame
 
-// Numbers and lists of them, all of the shape of the first. `like` is one of the values.
+// Interpolates numbers or lists of numbers, which must all have the shape of the first.
 YamlRef blend(ReadContext& context, const Values& values, double frame,
               Interpolation interpolation) {
   const YamlNode& first = *values.begin()->second;
@@ -76,10 +76,10 @@ double interpolate(std::span<const Key> keys, double at, Interpolation interpola
   if (next == keys.end()) return keys.back().value;
   const auto i = static_cast<std::size_t>(next - keys.begin()) - 1;
   const Key &a = keys[i], &b = keys[i + 1];
-  // By the difference, so that what stays the same does so to the last bit.
+  // Adds a difference, so that equal values stay equal to the last bit.
   const double width = b.at - a.at, rise = b.value - a.value, t = (at - a.at) / width, s = 1 - t;
   if (interpolation == Interpolation::linear) return a.value + t * rise;
-  // The cubic by Hermite.
+  // Cubic Hermite interpolation.
   return a.value + t * t * (3 - 2 * t) * rise +
          width * t * s * (s * slope_at(keys, i) - t * slope_at(keys, i + 1));
 }

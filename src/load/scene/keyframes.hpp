@@ -1,4 +1,4 @@
-// {keys: {0: 1, 24: [...]}, interpolation: smooth}: a value by frame.
+// Keyframes give a value for each frame: {keys: {0: 1, 24: [...]}, interpolation: smooth}.
 #pragma once
 
 #include <span>
@@ -9,7 +9,7 @@ namespace pah {
 
 enum class Interpolation {
   linear,
-  smooth,  // speeds change gradually, and are 0 at both ends; no value goes beyond its neighbors'
+  smooth,  // continuous speed that is 0 at both ends, without overshoot
 };
 
 struct Key {

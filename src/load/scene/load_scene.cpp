@@ -39,14 +39,14 @@ std::string read_text(const fs::path& file, std::uint64_t most_bytes) {
   return text;
 }
 
-// The tree is at one frame already.
+// Only describes the section: load_scene() has evaluated the animation already.
 void describe_animation(SceneReading& reading, const YamlNode* /*node*/) {
   if (reading.context.language == nullptr) return;
   (void)read_animation(reading.context, nullptr, {});
   (void)read_keyframes(reading.context, nullptr, 0);
 }
 
-// The order matters: a section is read after those that it refers to.
+// The order matters: a section may refer to earlier ones.
 void read_sections(SceneReading& reading, MapReader& map) {
   using Section = std::pair<const char*, void (*)(SceneReading&, const YamlNode*)>;
   for (const auto& [key, read] : {Section{"camera", read_camera},
@@ -64,7 +64,7 @@ void read_sections(SceneReading& reading, MapReader& map) {
     });
 }
 
-// The tree with all overrides applied; errors are collected.
+// Returns the tree with all overrides applied, and collects their errors.
 YamlRef apply_overrides(YamlRef root, const LoadOptions& options, const YamlLimits& limits,
                         std::vector<YamlFault>& faults) {
   for (std::size_t i = 0; i < options.overrides.size(); ++i) {
@@ -144,7 +144,7 @@ Language describe_language() {
 
 namespace {
 
-// What a section holds, or null.
+// Returns the value of a section, or null.
 const YamlNode* section(const YamlNode& root, std::string_view key) {
   const YamlEntry* entry = root.kind == YamlNode::Kind::map ? root.find(key) : nullptr;
   return entry == nullptr || entry->value->kind == YamlNode::Kind::null ? nullptr

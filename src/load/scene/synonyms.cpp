@@ -11,7 +11,7 @@ struct Synonym {
   std::string_view here;
 };
 
-// Of several, the first that the map has.
+// Of several synonyms, the first that the map has applies.
 constexpr Synonym synonyms[] = {{"power", "intensity"},
                                 {"power", "irradiance"},
                                 {"power", "radiance"},

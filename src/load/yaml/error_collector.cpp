@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::size_t most_errors = 100;
 constexpr std::size_t longest_excerpt = 160;  // bytes
-constexpr std::size_t shown_before = 60;      // of them, before the caret
+constexpr std::size_t shown_before = 60;      // bytes before the caret
 
 bool continues(char c) { return (static_cast<unsigned char>(c) & 0xC0U) == 0x80; }
 
@@ -42,7 +42,7 @@ LocatedError ErrorCollector::locate(const YamlFault& error, std::string_view lin
 
 std::vector<LocatedError> ErrorCollector::located(std::vector<YamlFault> faults,
                                                   const char* noun) const {
-  // Those of the file first, then those of the overrides in their order.
+  // Errors of the file come first, then errors of the overrides in order.
   const auto key = [](const YamlFault& e) {
     return std::tie(e.mark.override_index, e.mark.line, e.mark.column);
   };
@@ -68,9 +68,9 @@ std::vector<LocatedError> ErrorCollector::located(std::vector<YamlFault> faults,
     result.push_back(locate(error, line));
   }
   if (faults.size() > most_errors) {
-    LocatedError& rest = result.emplace_back();
-    rest.where.file = file_;
-    rest.message = "and " + std::to_string(faults.size() - most_errors) + " more " + noun;
+    LocatedError& remainder = result.emplace_back();
+    remainder.where.file = file_;
+    remainder.message = "and " + std::to_string(faults.size() - most_errors) + " more " + noun;
   }
   return result;
 }

@@ -8,7 +8,7 @@
 namespace pah {
 namespace {
 
-constexpr int deepest = 64;  // parentheses and signs within one another
+constexpr int deepest = 64;  // nested parentheses and signs
 
 bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; }
 
@@ -22,7 +22,7 @@ class Parser {
     if (failed_ || at_ < text_.size()) return {};
     return value;
   }
-  // The first name that is none; parsing goes on as if it were a variable.
+  // The first unknown name. Parsing continues as if it were a variable.
   [[nodiscard]] const std::string& unknown() const { return unknown_; }
 
  private:

@@ -39,7 +39,7 @@ void for_lines(std::string_view text, int last, const Visit& visit) {
   }
 }
 
-// The bracket that is not closed, or closed by one of another kind.
+// Returns the bracket that is not closed, or closed by one of another kind.
 std::optional<YamlFault> open_bracket(std::string_view text) {
   std::vector<YamlFault> open;
   std::optional<YamlFault> wrong;
@@ -101,18 +101,19 @@ YamlFault likely_fault(std::string_view text, const YamlFault& fault) {
   std::string_view line;
   std::string_view before;
   std::optional<YamlFault> found;
-  for_lines(text, fault.mark.line, [&](std::string_view one, int number) {
-    if (one.find_first_not_of(" \t\r") != std::string_view::npos) {
+  for_lines(text, fault.mark.line, [&](std::string_view current, int number) {
+    if (current.find_first_not_of(" \t\r") != std::string_view::npos) {
       before = line;
-      line = one;
+      line = current;
     }
-    const std::size_t tab = one.find_first_not_of(' ');
-    if (tab != std::string_view::npos && one[tab] == '\t' &&
-        one.find_first_not_of(" \t\r") != std::string_view::npos)
+    const std::size_t tab = current.find_first_not_of(' ');
+    if (tab != std::string_view::npos && current[tab] == '\t' &&
+        current.find_first_not_of(" \t\r") != std::string_view::npos)
       found = {{-1, number, static_cast<int>(tab) + 1},
                "lines are indented by spaces here, not by tabs"};
-    else if (const auto color = color_as_comment(one))
-      found = {{-1, number, static_cast<int>(*color) + 1}, "not valid YAML" + comment_hint(one)};
+    else if (const auto color = color_as_comment(current))
+      found = {{-1, number, static_cast<int>(*color) + 1},
+               "not valid YAML" + comment_hint(current)};
     return found.has_value();
   });
   if (!found) found = open_bracket(text);

@@ -12,10 +12,10 @@ namespace pah {
 // else the fault itself.
 [[nodiscard]] YamlFault likely_fault(std::string_view text, const YamlFault& fault);
 
-// "; a '#' after a blank begins a comment: ..." if the line has a color behind such a '#'.
+// Returns "; a '#' after a blank begins a comment: ..." if the line has such a color, or "".
 [[nodiscard]] std::string comment_hint(std::string_view line);
 
-// "; a blank is missing after the colon" if the word is a key and a value without one.
+// Returns "; a blank is missing after the colon" if the word looks like "key:value", or "".
 [[nodiscard]] std::string colon_hint(std::string_view word);
 
 }  // namespace pah

@@ -15,7 +15,7 @@ std::string_view name_of(const YamlNode& node) {
                                                               : std::string_view();
 }
 
-// The index of the entry or element that `step` names, or the size.
+// Returns the index of the entry or element that `step` names, or the size.
 std::size_t index_of(const YamlNode& node, std::string_view step) {
   const bool is_map = node.kind == Kind::map;
   const std::size_t size = is_map ? node.entries.size() : node.items.size();
@@ -51,7 +51,7 @@ YamlRef replace_at(const YamlRef& root, std::string_view path, const YamlRef& va
   if (copy->kind == Kind::scalar)
     throw YamlError(mark, "'" + std::string(path) + "' is sought in '" + copy->text +
                               "', which is neither a map nor a list");
-  // Names may hold dots: the longest that exists wins.
+  // Names may contain dots, so the longest existing name wins.
   const bool is_map = copy->kind == Kind::map;
   const std::size_t size = is_map ? copy->entries.size() : copy->items.size();
   std::size_t length = path.size();

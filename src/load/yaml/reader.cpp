@@ -72,7 +72,7 @@ bool in_range(double value, const NumberRange& range) {
          (range.max_open ? value < range.max : value <= range.max);
 }
 
-// A number wherever it stands: alone or in a list.
+// Reads a number, alone or in a list.
 bool read_number(ReadContext& context, const YamlNode& node, const ValueName& name, double& value,
                  const NumberRange& range) {
   double number = 0;
@@ -107,7 +107,7 @@ bool read_integer(ReadContext& context, const YamlNode& node, const ValueName& n
   const bool is_exact = node.kind == Kind::scalar && !node.quoted && error == std::errc() &&
                         end == text.data() + text.size() && !text.empty();
   const NumberFault fault = parse_number(node, number);
-  // 2^53 and below, doubles hold every whole number: 1e3 is one.
+  // Up to 2^53, doubles represent every whole number. 1e3 counts as one.
   const bool whole = is_exact || (fault == NumberFault::none && number == std::floor(number) &&
                                   std::abs(number) <= 9007199254740992.0);
   const bool fits = is_exact
@@ -215,11 +215,11 @@ bool read_numbers(ReadContext& context, const YamlNode& node, const ValueName& n
     return false;
   }
   std::vector<double> numbers(count);
-  bool all = true;
+  bool valid = true;
   for (std::size_t i = 0; i < count; ++i)
-    all = read_number(context, *node.items[i], name, numbers[i], range) && all;
-  if (all) std::copy(numbers.begin(), numbers.end(), values);
-  return all;
+    valid = read_number(context, *node.items[i], name, numbers[i], range) && valid;
+  if (valid) std::copy(numbers.begin(), numbers.end(), values);
+  return valid;
 }
 
 bool read_value(ReadContext& context, const YamlNode& node, const ValueName& name, DVec2& value,

@@ -1,4 +1,4 @@
-// Reads maps of a YAML tree into values, checked: types, ranges, names, missing and unknown keys.
+// Reads maps of a YAML tree into values, and checks types, ranges, names, missing and unknown keys.
 //
 // The reading code is the only description of the language: run without a document and with a
 // Language to fill in, it lists the keys of every kind of map (see describe_language()).
@@ -23,7 +23,7 @@ namespace pah {
 // Properties of a key.
 struct KeyDescription {
   bool required = false;
-  std::vector<std::string> options;  // if it is one of a few words
+  std::vector<std::string> options;  // if the value is one of a few words
 };
 // Keys by kind of map, such as "material diffuse".
 using Language = std::map<std::string, std::map<std::string, KeyDescription>>;
@@ -37,7 +37,7 @@ struct ReadContext {
 
 // The range of a number.
 struct NumberRange {
-  double min = -1e18;  // squares of everything in a scene are finite in float
+  double min = -1e18;  // squares of all numbers in a scene are finite floats
   double max = 1e18;
   bool min_open = false;
   bool max_open = false;
@@ -47,10 +47,10 @@ inline constexpr NumberRange positive{0, 1e18, true, false};
 inline constexpr NumberRange not_negative{0, 1e18, false, false};
 inline constexpr NumberRange unit_range{0, 1, false, false};
 
-// A value's place, in words: "'fov' of camera".
+// Describes a value's place in words: "'fov' of camera".
 using ValueName = std::string;
 
-// "the number 3", "'abc'", "a list", "a map", "nothing".
+// Describes a value: "3", "'abc'", "a list of 2", "a map", "nothing".
 [[nodiscard]] std::string describe(const YamlNode& node);
 [[nodiscard]] bool is_number(const YamlNode& node);
 
@@ -72,11 +72,11 @@ bool read_value(ReadContext& context, const YamlNode& node, const ValueName& nam
                 const NumberRange& range = any_number);
 bool read_value(ReadContext& context, const YamlNode& node, const ValueName& name, DVec3& value,
                 const NumberRange& range = any_number);
-// A list of exactly `count` numbers.
+// Reads a list of exactly `count` numbers.
 bool read_numbers(ReadContext& context, const YamlNode& node, const ValueName& name, double* values,
                   std::size_t count, const NumberRange& range = any_number);
 
-// The index of the text in `options`, or reports and returns options.size().
+// Returns the index of the text in `options`, or reports an error and returns options.size().
 std::size_t read_option(ReadContext& context, const YamlNode& node, const ValueName& name,
                         const std::vector<std::string>& options);
 
@@ -92,8 +92,8 @@ template <typename Enum>
 
 class MapReader {
  public:
-  // `kind` names the sort of map in the language ("material diffuse"), `title` this very one
-  // ("material 'white'"). Without a node every key is absent.
+  // `kind` names the kind of map in the language ("material diffuse"), `title` this map ("material
+  // 'white'"). Without a node, every key is absent.
   MapReader(ReadContext& context, const YamlNode* node, std::string kind, std::string title)
       : context_(context), node_(node), kind_(std::move(kind)), title_(std::move(title)) {
     if (recording()) (*context_.language)[kind_];
@@ -103,13 +103,13 @@ class MapReader {
   [[nodiscard]] ReadContext& context() const { return context_; }
   [[nodiscard]] const std::string& title() const { return title_; }
   [[nodiscard]] Mark mark() const { return node_ == nullptr ? Mark{} : node_->mark; }
-  // Where a key's value is; the map if it is absent.
+  // Returns the place of a key's value, or of the map if the key is absent.
   [[nodiscard]] Mark mark_of(std::string_view key) const;
   [[nodiscard]] ValueName name_of(std::string_view key) const {
     return "'" + std::string(key) + "' of " + title_;
   }
 
-  // The value, or null. Registers the key.
+  // Returns the key's value or null, and registers the key.
   const YamlNode* find(std::string_view key, bool required = false,
                        const std::vector<std::string>& options = {});
 
@@ -146,8 +146,8 @@ class MapReader {
     context_.errors.add(mark_of(key), std::move(message));
   }
 
-  // While describing the language: the kind of map that this one is if it is also `branch`, with
-  // all keys registered so far; this kind itself is then none.
+  // Describes, for the language, the kind of map that this one becomes with `branch`. It has all
+  // keys registered so far. This kind itself then no longer exists.
   template <class Read>
   void describe_branch(const std::string& branch, Read&& read) {
     MapReader reader(context_, nullptr, kind_ + " " + branch, title_);
@@ -177,7 +177,7 @@ class MapReader {
 bool is_map(ReadContext& context, const YamlNode* node, const std::string& title);
 bool is_list(ReadContext& context, const YamlNode& node, const std::string& title);
 
-// read(MapReader&) over a map of one kind.
+// Calls read(MapReader&) for a map of one kind.
 template <class Read>
 void read_map(ReadContext& context, const YamlNode* node, const std::string& kind,
               const std::string& title, Read&& read) {
@@ -187,18 +187,18 @@ void read_map(ReadContext& context, const YamlNode* node, const std::string& kin
   reader.finish();
 }
 
-// read(MapReader&, index of the option) over a map whose `key` says of which kind it is; without
-// the key, it is the option `otherwise`, or an error if that is out of range.
+// Calls read(MapReader&, index of the option) for a map whose `key` selects its kind. Without the
+// key, the option is `fallback`, or an error if that is out of range.
 template <class Read>
 void read_variant(ReadContext& context, const YamlNode* node, const std::string& kind,
                   const std::string& title, std::string_view key,
-                  const std::vector<std::string>& options, std::size_t otherwise, Read&& read) {
+                  const std::vector<std::string>& options, std::size_t fallback, Read&& read) {
   if (!is_map(context, node, title)) return;
-  const bool key_required = otherwise >= options.size();
+  const bool key_required = fallback >= options.size();
   if (context.language != nullptr) {
     for (std::size_t i = 0; i < options.size(); ++i) {
       MapReader reader(context, nullptr, kind + " " + options[i], title);
-      reader.find(key, i != otherwise, {options[i]});
+      reader.find(key, i != fallback, {options[i]});
       read(reader, i);
     }
     return;
@@ -207,7 +207,7 @@ void read_variant(ReadContext& context, const YamlNode* node, const std::string&
   const YamlNode* value = reader.find(key, key_required, options);
   if (value == nullptr && key_required) return;
   const std::size_t index =
-      value == nullptr ? otherwise : read_option(context, *value, reader.name_of(key), options);
+      value == nullptr ? fallback : read_option(context, *value, reader.name_of(key), options);
   if (index >= options.size()) return;
   read(reader, index);
   reader.finish();

@@ -5,7 +5,7 @@
 namespace pah {
 namespace {
 
-constexpr std::size_t longest_word = 64;  // beyond it, no misspelling of ours
+constexpr std::size_t longest_word = 64;  // longer words are not compared
 constexpr std::size_t longest_list = 24;
 
 std::string joined(const std::vector<std::string>& names) {

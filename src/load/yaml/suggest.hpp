@@ -7,18 +7,18 @@
 
 namespace pah {
 
-// Insertions, deletions, substitutions and swaps of neighbors that turn `a` into `b`: the
-// restricted Damerau-Levenshtein distance.
+// Returns the number of insertions, deletions, substitutions and swaps of neighbors that turn `a`
+// into `b`: the restricted Damerau-Levenshtein distance.
 [[nodiscard]] int edit_distance(std::string_view a, std::string_view b);
 
-// "; did you mean 'x'?" if a name is near enough, or nothing.
+// Returns "; did you mean 'x'?" if a name is near enough, or "".
 [[nodiscard]] std::string suggestion(std::string_view word, const std::vector<std::string>& names);
 
-// The suggestion if there is one, else "; available keys are: ...".
+// Returns the suggestion if there is one, or "; available keys are: ...".
 [[nodiscard]] std::string suggestion_or_keys(std::string_view word,
                                              const std::vector<std::string>& keys);
 
-// "; did you mean 'x'? Available options are: ..."; the list only if it is short enough to read.
+// Returns "; did you mean 'x'? Available options are: ...", without the list if it is too long.
 [[nodiscard]] std::string suggestion_and_options(std::string_view word,
                                                  const std::vector<std::string>& options);
 

@@ -33,7 +33,7 @@ class TreeBuilder final : public YAML::EventHandler {
 
   void OnNull(const YAML::Mark& mark, YAML::anchor_t anchor) override {
     auto node = make(Kind::null, mark);
-    // An absent value is where its key is: yaml-cpp names the token after it.
+    // An absent value gets the place of its key. yaml-cpp gives that of the next token.
     if (!open_.empty())
       if (const auto& key = open_.back().key) node->mark = key->mark;
     close(std::move(node), anchor);
@@ -74,7 +74,7 @@ class TreeBuilder final : public YAML::EventHandler {
   struct Open {
     std::shared_ptr<YamlNode> node;
     YAML::anchor_t anchor = 0;
-    std::optional<YamlEntry> key;  // of a map: read, its value not yet
+    std::optional<YamlEntry> key;  // of a map, while its value is read
     std::unordered_map<std::string, Mark> keys;
     std::vector<YamlEntry> merges;
   };
@@ -157,7 +157,7 @@ class TreeBuilder final : public YAML::EventHandler {
       top.node->entries.push_back(std::move(entry));
   }
 
-  // Counts a child, and refuses it where the document would grow past its limits.
+  // Counts a child, and rejects it if the document would exceed its limits.
   void grow(YamlNode& parent, const YamlNode& child, const Mark& mark) const {
     if (child.count > limits_.nodes - std::min(parent.count, limits_.nodes))
       throw YamlError(mark, "more than " + std::to_string(limits_.nodes) +
@@ -207,8 +207,8 @@ class TreeBuilder final : public YAML::EventHandler {
   YamlRef root_;
 };
 
-// yaml-cpp takes the byte 4 for the end of the file, and queues every bracket of a line before it
-// reports the first: both are caught here.
+// Rejects control characters and too many brackets: yaml-cpp takes the byte 4 for the end of the
+// file, and queues every bracket of a line before it reports the first.
 void check_text(std::string_view text, int override_index) {
   constexpr int max_brackets = 4096;
   Mark mark{override_index, 1, 1};
@@ -231,7 +231,7 @@ void check_text(std::string_view text, int override_index) {
   }
 }
 
-// Invalid or overlong sequences, surrogates and values past U+10FFFF are not UTF-8 (RFC 3629).
+// Rejects invalid or overlong sequences, surrogates and values past U+10FFFF (RFC 3629).
 void check_utf8(std::string_view text, int override_index) {
   Mark mark{override_index, 1, 1};
   for (std::size_t i = 0; i < text.size();) {

@@ -1,7 +1,7 @@
-// A YAML document as a tree of values that never change: aliases are shared, merge keys resolved.
+// A YAML document as a tree of immutable values. Aliases are shared, merge keys are resolved.
 //
-// yaml-cpp parses; its own Node is not used, because it hides where null values and keys stand,
-// knows no merge keys, and expands aliases without limit.
+// Uses yaml-cpp's parser but not its Node, which hides the places of null values and keys, ignores
+// merge keys, and expands aliases without limit.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@ namespace pah {
 
 // The place of a value. Lines and columns count from 1, columns in bytes.
 struct Mark {
-  int override_index = -1;  // the override that it came from; -1 for the file
+  int override_index = -1;  // index of the override; -1 for the file
   int line = 0;
   int column = 0;
 
@@ -39,11 +39,11 @@ struct YamlNode {
   bool quoted = false;  // scalars: "42" is text, 42 a number
   Mark mark;
   std::string text;                // scalars
-  std::optional<double> number;    // of a scalar whose text is none: at some frame
+  std::optional<double> number;    // of an animated scalar, at the loaded frame
   std::vector<YamlRef> items;      // lists
-  std::vector<YamlEntry> entries;  // maps, in order, keys unique
-  std::uint64_t count = 1;         // nodes from here down, aliases expanded
-  int depth = 1;                   // levels from here down, aliases expanded
+  std::vector<YamlEntry> entries;  // maps, in order, with unique keys
+  std::uint64_t count = 1;         // nodes of this subtree, with aliases expanded
+  int depth = 1;                   // levels of this subtree, with aliases expanded
 
   [[nodiscard]] const YamlEntry* find(std::string_view key) const;
 };
@@ -69,8 +69,8 @@ struct YamlFault {
   std::string message;
 };
 
-// The first and only document in `text`; a null node if there is none. Duplicate keys, tags and the
-// like go to `faults`. Marks carry `override_index`. Throws YamlError.
+// Returns the only document in `text`, or a null node if the text is empty. Adds duplicate keys,
+// tags and the like to `faults`. Marks carry `override_index`. Throws YamlError.
 [[nodiscard]] YamlRef parse_yaml(std::string_view text, const YamlLimits& limits,
                                  std::vector<YamlFault>& faults, int override_index = -1);
 

@@ -7,7 +7,7 @@
 namespace pah {
 namespace {
 
-constexpr std::size_t block = 1U << 18;  // what fits the second-level cache
+constexpr std::size_t block = 1U << 18;  // fits the second-level cache
 
 }  // namespace
 
@@ -37,14 +37,14 @@ bool FileReader::fill(std::size_t count) {
   end_ -= at_;
   at_ = 0;
   if (buffer_.size() < count) buffer_.resize(count);
-  const auto more =
+  const auto wanted =
       static_cast<std::size_t>(std::min<std::uint64_t>(buffer_.size() - end_, unread_));
-  stream_.read(buffer_.data() + end_, static_cast<std::streamsize>(more));
+  stream_.read(buffer_.data() + end_, static_cast<std::streamsize>(wanted));
   // Another process may have truncated the file.
-  if (static_cast<std::size_t>(stream_.gcount()) != more)
+  if (static_cast<std::size_t>(stream_.gcount()) != wanted)
     throw MeshFileError("the file cannot be read to its end");
-  end_ += more;
-  unread_ -= more;
+  end_ += wanted;
+  unread_ -= wanted;
   return true;
 }
 

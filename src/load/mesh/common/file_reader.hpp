@@ -11,21 +11,21 @@
 
 namespace pah {
 
-inline constexpr std::size_t longest_line = 1U << 24;  // in bytes, that makes sense
+inline constexpr std::size_t longest_line = 1U << 24;  // in bytes; no sensible line is longer
 
 class FileReader {
  public:
   // Throws MeshFileError if the file cannot be read or has more than `max_bytes`.
   FileReader(const std::filesystem::path& file, std::uint64_t max_bytes);
 
-  // The next line without its end, which is "\n" or "\r\n", or "\r" if the first line ends so;
-  // nothing at the end of the file. Valid until the next call. Throws MeshFileError if it is longer
-  // than any that makes sense.
+  // Returns the next line without its end, or nothing at the end of the file. Lines end with "\n"
+  // or "\r\n", or with "\r" if the first line does. Valid until the next call. Throws
+  // MeshFileError for a line longer than longest_line.
   [[nodiscard]] std::optional<std::string_view> line();
   // The number of the last line read, from 1.
   [[nodiscard]] int line_number() const { return line_number_; }
 
-  // The next `count` bytes, valid until the next call; null if fewer are left.
+  // Returns the next `count` bytes, or null if fewer are left. Valid until the next call.
   [[nodiscard]] const char* bytes(std::size_t count) {
     if (end_ - at_ < count && !fill(count)) return nullptr;
     const char* const begin = buffer_.data() + at_;
@@ -50,10 +50,10 @@ class FileReader {
 
   std::ifstream stream_;
   std::uint64_t size_ = 0;
-  std::uint64_t unread_ = 0;  // bytes that are not in the buffer yet
+  std::uint64_t unread_ = 0;  // bytes after those in the buffer
   std::vector<char> buffer_;
-  std::size_t at_ = 0;   // of what comes next, in the buffer
-  std::size_t end_ = 0;  // of what the buffer holds
+  std::size_t at_ = 0;   // index of the next byte in the buffer
+  std::size_t end_ = 0;  // number of bytes in the buffer
   int line_number_ = 0;
   char line_end_ = '\n';
 };

@@ -12,7 +12,7 @@ double cross(const DVec2& a, const DVec2& b, const DVec2& c) {
   return u.x * v.y - u.y * v.x;
 }
 
-// The corners seen along the polygon's normal, by Newell's formula, so that they run
+// Projects the corners along the polygon's normal (Newell's formula), so that they run
 // counterclockwise.
 std::vector<DVec2> flattened(std::span<const Vec3> corners) {
   DVec3 normal{0};

@@ -13,11 +13,11 @@ namespace {
 
 using Run = PolygonMesh::Run;
 
-// A run with where it ends and where its corners begin.
+// A run of faces with its end and its first corner.
 struct Faces {
   std::uint32_t material;
   std::size_t first;
-  std::size_t last;  // behind them
+  std::size_t last;  // one past the end
   std::size_t first_corner;
 };
 
@@ -49,8 +49,8 @@ class TriangleMaker {
                  {no_index, no_index});
     uses_normals_ = options.normals == MeshNormals::file && !polygons.normals.empty();
     const auto count = static_cast<std::uint32_t>(made_.size());
-    // Where each corner is a vertex, as in STL files, equal ones are near each other, and found
-    // faster one by one.
+    // If each corner is a vertex of its own, as in STL files, equal vertices are close together,
+    // and finding them one by one is faster.
     if (2 * made_.size() > corners_.size() || (uses_normals_ && !all_have_normals(count))) return;
     first_equal_ =
         first_equal_vertices(count, [this](std::uint32_t vertex) { return values_of(vertex); });
@@ -74,11 +74,11 @@ class TriangleMaker {
         }
     }
     has_normals_ = normals && options_.normals == MeshNormals::file;
-    const bool all = faces == polygons_.faces();
-    in_place_ = all && !polygons_.triangles.empty();
-    // A mesh of all faces has most vertices; pages that nothing is written to cost nothing.
+    const bool has_all_faces = faces == polygons_.faces();
+    in_place_ = has_all_faces && !polygons_.triangles.empty();
+    // A mesh of all faces uses most vertices. Unused reserved memory costs nothing.
     builder_ = MeshBuilder({has_normals_, uvs, !polygons_.colors.empty()}, faces,
-                           all && !first_equal_.empty() ? made_.size() : 0);
+                           has_all_faces && !first_equal_.empty() ? made_.size() : 0);
   }
 
   void add(const Faces& run) {
@@ -130,7 +130,7 @@ class TriangleMaker {
     return {made(corners, t, 0), made(corners, t, 1), made(corners, t, 2)};
   }
 
-  // The vertex for corner `k` of the triangle.
+  // Returns the vertex for corner `k` of the triangle.
   std::uint32_t made(const std::uint32_t* corners, const UVec3& t, int k) {
     const std::uint32_t corner = corners[t[k]];
     const bool is_known_alone = first_equal_.empty();
@@ -144,7 +144,7 @@ class TriangleMaker {
     const bool flat = has_normals_ && !unit_normal(vertex_of(corner), values.normal);
     if (flat) values.normal = flat_normal(corners, t);
     const std::uint32_t result = builder_.add_vertex(values);
-    // A normal of this triangle is not the vertex's elsewhere.
+    // A flat normal holds for this triangle only.
     if (!flat) known = {material_, result};
     return result;
   }
@@ -164,12 +164,12 @@ class TriangleMaker {
                count, 1U << 15, std::uint8_t{1},
                [&](std::size_t first, std::size_t last) {
                  Vec3 normal(0);
-                 std::uint8_t all = 1;
-                 for (std::size_t i = first; i < last && all != 0; ++i)
-                   all = unit_normal(vertex_of(static_cast<std::uint32_t>(i)), normal) ? 1 : 0;
-                 return all;
+                 std::uint8_t valid = 1;
+                 for (std::size_t i = first; i < last && valid != 0; ++i)
+                   valid = unit_normal(vertex_of(static_cast<std::uint32_t>(i)), normal) ? 1 : 0;
+                 return valid;
                },
-               [](std::uint8_t& all, std::uint8_t part) { all = std::min(all, part); }) != 0;
+               [](std::uint8_t& total, std::uint8_t part) { total = std::min(total, part); }) != 0;
   }
 
   // Returns false if the file has no normal, or one of length 0.
@@ -193,15 +193,15 @@ class TriangleMaker {
   std::span<const std::uint32_t> corners_;
   const MeshFileOptions& options_;
   std::vector<Made> made_;
-  // Of each of the file's vertices; empty if they are looked for one by one.
+  // For each vertex of the file; empty if equal vertices are found one by one.
   std::vector<std::uint32_t> first_equal_;
   bool uses_normals_ = false;
   std::uint32_t material_ = 0;
   bool has_normals_ = false;
   bool in_place_ = false;  // the faces become the mesh's triangles
   MeshBuilder builder_{{}, 0};
-  std::vector<Vec3> points_;      // of the face at hand
-  std::vector<UVec3> triangles_;  // of their numbers
+  std::vector<Vec3> points_;      // corners of the current face
+  std::vector<UVec3> triangles_;  // indices of these points
 };
 
 }  // namespace

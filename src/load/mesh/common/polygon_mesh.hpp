@@ -9,9 +9,9 @@
 namespace pah {
 
 inline constexpr std::uint32_t no_index = 0xFFFFFFFF;
-inline constexpr std::size_t max_polygon_corners = 10'000;  // triangulation may take their square
+inline constexpr std::size_t max_polygon_corners = 10'000;  // triangulation takes quadratic time
 
-// Numbers of a position, a texture coordinate and a normal; of the latter no_index for none.
+// Indices of a position, a texture coordinate and a normal; no_index if absent.
 struct PolygonVertex {
   std::uint32_t position;
   std::uint32_t uv;
@@ -30,7 +30,7 @@ struct PolygonMesh {
   std::vector<std::uint16_t> face_sizes;  // in corners: 3 to max_polygon_corners
   std::vector<UVec3> triangles;           // all faces, instead of corners and face_sizes
 
-  // Faces from `first_face` on, to the next run, are of `material`. None: all are of material 0.
+  // Faces from `first_face` to the next run have `material`. Without runs, all have material 0.
   struct Run {
     std::size_t first_face;
     std::uint32_t material;

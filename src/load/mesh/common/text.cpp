@@ -9,17 +9,17 @@
 namespace pah {
 namespace {
 
-// Those that a double holds exactly.
+// The powers of ten that a double holds exactly.
 constexpr double powers_of_ten[] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
                                     1e8,  1e9,  1e10, 1e11, 1e12, 1e13, 1e14, 1e15,
                                     1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
 constexpr int largest_power = 22;
-constexpr int most_digits = 19;  // that 64 bits hold
+constexpr int most_digits = 19;  // that fit 64 bits
 
 // digits * 10^exponent, without the sign.
 struct Decimal {
   std::uint64_t digits = 0;
-  int count = 0;  // of digits behind leading zeros; above most_digits, `digits` has wrapped
+  int count = 0;  // digits after leading zeros; above most_digits, `digits` has overflowed
   int exponent = 0;
 };
 
@@ -27,7 +27,7 @@ bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
 // Reads [+|-]digits[.digits][(e|E)[+|-]digits], with digits on either side of the point.
 bool read_decimal(const char* at, const char* end, Decimal& number) {
-  // How many digits there are.
+  // Returns the number of digits.
   const auto take_digits = [&] {
     const char* const first = at;
     if (number.count == 0)
@@ -67,7 +67,7 @@ bool round_fast(const Decimal& number, float& value) {
   const auto digits = static_cast<double>(number.digits);
   const double exact =
       number.exponent < 0 ? digits / powers_of_ten[power] : digits * powers_of_ten[power];
-  constexpr std::uint64_t dropped = (1ULL << 29) - 1;  // bits of a double that a float has not
+  constexpr std::uint64_t dropped = (1ULL << 29) - 1;  // bits of a double that a float lacks
   const bool half_way = (std::bit_cast<std::uint64_t>(exact) & dropped) == 1ULL << 28;
   if (half_way || (exact < std::numeric_limits<float>::min() && exact != 0)) return false;
   value = static_cast<float>(exact);
@@ -88,10 +88,10 @@ std::string_view without_byte_order_mark(std::string_view line) {
 }
 
 std::string_view Words::rest() const {
-  std::string_view rest = line_.substr(at_);
-  while (!rest.empty() && is_blank(rest.front())) rest.remove_prefix(1);
-  while (!rest.empty() && is_blank(rest.back())) rest.remove_suffix(1);
-  return rest;
+  std::string_view text = line_.substr(at_);
+  while (!text.empty() && is_blank(text.front())) text.remove_prefix(1);
+  while (!text.empty() && is_blank(text.back())) text.remove_suffix(1);
+  return text;
 }
 
 int Words::column_of(std::string_view word) const {

@@ -7,7 +7,7 @@
 namespace pah {
 
 [[nodiscard]] inline bool is_blank(char c) {
-  // One comparison for most characters.
+  // Most characters need only the first comparison.
   return static_cast<unsigned char>(c) <= ' ' && (c == ' ' || c == '\t' || c == '\r');
 }
 

@@ -1,4 +1,4 @@
-// The textures of a mesh file, each once.
+// The textures of a mesh file, without duplicates.
 #pragma once
 
 #include <map>
@@ -12,7 +12,7 @@ class TextureList {
  public:
   explicit TextureList(std::vector<Texture>& textures) : textures_(textures) {}
 
-  // The id of the texture, which is added if it is new.
+  // Returns the id of the texture; adds it if it is new.
   TextureId add(const ImageTexture& image) {
     const Key key{image.file.string(), image.color_space, image.scale.x, image.scale.y,
                   image.offset.x,      image.offset.y,    image.clamp};

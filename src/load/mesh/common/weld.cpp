@@ -12,7 +12,7 @@
 namespace pah {
 namespace {
 
-// 0 and -0 are one position.
+// Adding 0 makes 0 and -0 equal.
 std::uint32_t bits_of(float x) { return std::bit_cast<std::uint32_t>(x + 0.0F); }
 
 std::uint64_t mix(std::uint64_t hash, std::uint64_t bits) {
@@ -36,14 +36,14 @@ bool equal(const VertexValues& a, const VertexValues& b) {
   return a.position == b.position && a.normal == b.normal && a.uv == b.uv && a.color == b.color;
 }
 
-// A vertex with a part of its hash, most of which spares looking at the vertex.
+// A vertex with a part of its hash. Comparing hashes first avoids most comparisons of vertices.
 struct HashedVertex {
   std::uint32_t hash;
   std::uint32_t vertex;
 };
 
-// Vertices by some bits of their hashes: groups whose tables fit a cache. In a group they have
-// their order.
+// Vertices grouped by some bits of their hashes, so that the table of a group fits the cache.
+// Vertices of a group keep their order.
 class HashGroups {
  public:
   HashGroups(std::uint32_t count, const std::function<VertexValues(std::uint32_t)>& values)
@@ -51,7 +51,8 @@ class HashGroups {
         groups_(std::size_t{1} << (32 - shift_)),
         members_(count) {
     const std::size_t chunks = (std::size_t{count} + chunk - 1) / chunk;
-    std::vector<std::uint32_t> places(chunks * groups_);  // of a chunk's first member of a group
+    std::vector<std::uint32_t> places(chunks *
+                                      groups_);  // of the first member of a group in a chunk
     const auto for_each = [&](std::size_t c, const auto& visit) {
       for (std::size_t i = c * chunk; i < std::min<std::size_t>(count, (c + 1) * chunk); ++i) {
         const auto vertex = static_cast<std::uint32_t>(i);
@@ -102,7 +103,7 @@ std::vector<std::uint32_t> first_equal_vertices(
   parallel_for(groups.count(), 4, [&](std::size_t group) {
     const std::span<const HashedVertex> members = groups.members(group);
     const std::size_t mask = std::bit_ceil(2 * members.size() + 1) - 1;
-    std::vector<HashedVertex> table(mask + 1, {0, count});  // `count` for none
+    std::vector<HashedVertex> table(mask + 1, {0, count});  // `count` marks an empty slot
     for (const HashedVertex& member : members) {
       std::size_t slot = member.hash & mask;
       while (table[slot].vertex != count &&
@@ -152,7 +153,7 @@ std::uint32_t MeshBuilder::add_new_vertex(const VertexValues& values) {
 
 std::uint32_t MeshBuilder::add_vertex(const VertexValues& values) {
   if (2 * (vertices() + 1) > table_.size()) grow();
-  // Added first, taken back if it is there already.
+  // Adds the vertex first, and removes it again if an equal one exists.
   const std::uint32_t vertex = add_new_vertex(values);
   const std::size_t mask = table_.size() - 1;
   for (std::size_t slot = hash(vertex) & mask;; slot = (slot + 1) & mask) {
@@ -216,7 +217,7 @@ void smooth_normals(Mesh& mesh) {
   for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
     const DVec3& sum = sums[point_of_vertex[i]];
     const double length = glm::length(sum);
-    // Where all triangles are without area or cancel, any direction is as good.
+    // The sum is 0 if all triangles are degenerate or cancel. Then any direction will do.
     mesh.normals[i] = length > 0 ? Vec3(sum / length) : Vec3(0, 1, 0);
   }
 }

@@ -54,9 +54,9 @@ class MeshBuilder {
   std::vector<std::uint32_t> table_;  // open addressing over a power of 2; vertex + 1, or 0
 };
 
-// Replaces the normals by the mean of those of the triangles around each position, weighted by
-// their angle there, whatever seams the texture coordinates have (Thuermer, Wuethrich, "Computing
-// Vertex Normals from Polygonal Facets", JGT 1998).
+// Replaces the normals by the mean of the normals of the triangles around each position, weighted
+// by their angles there (Thuermer, Wuethrich, "Computing Vertex Normals from Polygonal Facets", JGT
+// 1998). Seams of texture coordinates make no difference.
 void smooth_normals(Mesh& mesh);
 
 }  // namespace pah

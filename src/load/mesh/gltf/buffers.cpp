@@ -58,7 +58,7 @@ float load(const char* bytes, int type) {
   }
 }
 
-// glTF 2.0, 3.6.2.2: whole numbers that stand for [-1, 1] or [0, 1].
+// Normalized integers represent [-1, 1] or [0, 1] (glTF 2.0, 3.6.2.2).
 float largest(int type) {
   switch (type) {
     case i8:
@@ -76,7 +76,7 @@ float largest(int type) {
 
 }  // namespace
 
-// Where numbers stand.
+// An array of numbers in a buffer.
 struct GltfBuffers::Array {
   std::string_view bytes;
   std::uint64_t stride = 0;

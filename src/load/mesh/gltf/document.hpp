@@ -13,17 +13,17 @@ namespace pah {
 
 struct GltfDocument {
   std::filesystem::path file;
-  std::filesystem::path folder;  // in or under which all files that it names have to lie
-  std::uint64_t max_bytes = 0;   // of each of them
+  std::filesystem::path folder;  // all files that it names must lie in or under it
+  std::uint64_t max_bytes = 0;   // of each file
   Json json;
   std::string binary;                                              // the binary chunk of a .glb
-  std::function<void(const std::filesystem::path&)> on_file = {};  // as MeshFileOptions::on_file
+  std::function<void(const std::filesystem::path&)> on_file = {};  // like MeshFileOptions::on_file
 
-  // The file that a URI names. Throws MeshFileError if it lies elsewhere.
+  // Returns the path of the file that a URI names. Throws MeshFileError if it lies elsewhere.
   [[nodiscard]] std::filesystem::path path_of(const std::string& uri) const;
   // The image that a URI names. Throws MeshFileError if it does not exist.
   [[nodiscard]] std::filesystem::path image_of(const std::string& uri) const;
-  // The data of a "data:" URI, or of the file that another one names. Throws MeshFileError.
+  // Returns the data of a "data:" URI, or of the file that another URI names. Throws MeshFileError.
   [[nodiscard]] std::string data_of(const std::string& uri) const;
 };
 

@@ -54,7 +54,7 @@ class Importer {
 
   void read_parts() {
     const std::vector<GltfPlace> places = read_gltf_nodes(document_.json, out_);
-    std::map<std::size_t, std::vector<MeshFilePart>> parts;  // of a mesh, where it is not moved
+    std::map<std::size_t, std::vector<MeshFilePart>> parts;  // of each mesh, before its transform
     for (const GltfPlace& place : places) {
       const auto [entry, is_new] = parts.try_emplace(place.mesh);
       if (is_new) entry->second = make_parts(place.mesh);

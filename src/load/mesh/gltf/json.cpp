@@ -20,9 +20,9 @@ const Json& child(const Json& object, const char* key) {
   return *found;
 }
 
-std::uint64_t number(const Json& object, const char* key, std::uint64_t otherwise) {
+std::uint64_t number(const Json& object, const char* key, std::uint64_t fallback) {
   const auto found = object.find(key);
-  if (found == object.end()) return otherwise;
+  if (found == object.end()) return fallback;
   if (!found->is_number_unsigned() || found->get<std::uint64_t>() > (1ULL << 48))
     throw MeshFileError("'" + std::string(key) + "' is not a valid number");
   return found->get<std::uint64_t>();
@@ -37,9 +37,9 @@ std::size_t index_of(const Json& object, const char* key, std::size_t size) {
   return value;
 }
 
-DVec3 vec(const Json& object, const char* key, const DVec3& otherwise) {
+DVec3 vec(const Json& object, const char* key, const DVec3& fallback) {
   const auto found = object.find(key);
-  if (found == object.end()) return otherwise;
+  if (found == object.end()) return fallback;
   return {found->at(0).get<double>(), found->at(1).get<double>(), found->at(2).get<double>()};
 }
 

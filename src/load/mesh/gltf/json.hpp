@@ -11,17 +11,17 @@ namespace pah {
 
 using Json = nlohmann::json;
 
-// The list under a key; empty if there is none.
+// Returns the list under a key; empty if the key is absent.
 [[nodiscard]] const Json& list(const Json& object, const char* key);
-// The object under a key; empty if there is none.
+// Returns the object under a key; empty if the key is absent.
 [[nodiscard]] const Json& child(const Json& object, const char* key);
 
 // A count or an offset; `otherwise` if the key is missing.
 [[nodiscard]] std::uint64_t number(const Json& object, const char* key, std::uint64_t otherwise);
 
-// An index in a list of `size`.
+// Returns an index in a list of `size`.
 [[nodiscard]] std::size_t index_of(const Json& object, const char* key, std::size_t size);
 
-[[nodiscard]] DVec3 vec(const Json& object, const char* key, const DVec3& otherwise);
+[[nodiscard]] DVec3 vec(const Json& object, const char* key, const DVec3& fallback);
 
 }  // namespace pah

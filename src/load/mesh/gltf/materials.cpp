@@ -34,8 +34,8 @@ class MaterialReader {
   }
 
  private:
-  static float factor(const Json& object, const char* key, float otherwise, float low, float high) {
-    const double value = object.value(key, double{otherwise});
+  static float factor(const Json& object, const char* key, float fallback, float low, float high) {
+    const double value = object.value(key, double{fallback});
     if (!std::isfinite(value)) throw MeshFileError(std::string(key) + " is not finite");
     return static_cast<float>(std::clamp(value, double{low}, double{high}));
   }
@@ -130,21 +130,21 @@ class MaterialReader {
     const DVec2 scale = pair(transform, "scale", DVec2(1));
     const DVec2 offset = pair(transform, "offset", DVec2(0));
     image.scale = scale;
-    // glTF's v grows downwards: 1 - (offset + scale (1 - v)).
+    // glTF's v points down: 1 - (offset + scale (1 - v)).
     image.offset = {offset.x, 1 - offset.y - scale.y};
     return textures_.add(image);
   }
 
-  static DVec2 pair(const Json& object, const char* key, const DVec2& otherwise) {
+  static DVec2 pair(const Json& object, const char* key, const DVec2& fallback) {
     const auto found = object.find(key);
-    if (found == object.end()) return otherwise;
+    if (found == object.end()) return fallback;
     const DVec2 value{found->at(0).get<double>(), found->at(1).get<double>()};
     if (!std::isfinite(value.x) || !std::isfinite(value.y))
       throw MeshFileError("a texture's transform is not finite");
     return value;
   }
 
-  // A file, or bytes inside of this one, kept once.
+  // Sets the texture's file, or its bytes inside this file, which all uses share.
   void set_image(std::size_t index, ImageTexture& texture) {
     Image& known = images_[index];
     if (known.file.empty()) {

@@ -20,7 +20,7 @@ void check_count(std::size_t count, std::size_t vertices, const char* name) {
                         " values for " + std::to_string(vertices) + " vertices");
 }
 
-// glTF 2.0, 3.7.2.1: corners of lists, strips and fans.
+// Adds the corners of a list, strip or fan of triangles (glTF 2.0, 3.7.2.1).
 void add_triangles(std::uint64_t mode, const std::vector<std::uint32_t>& indices,
                    PolygonMesh& out) {
   constexpr std::uint64_t strip = 5, fan = 6;
@@ -34,7 +34,7 @@ void add_triangles(std::uint64_t mode, const std::vector<std::uint32_t>& indices
   }
 }
 
-// Linear colors, with or without an alpha.
+// Reads linear colors with or without alpha.
 void read_colors(const GltfBuffers& buffers, std::size_t accessor, PolygonMesh& mesh,
                  std::vector<std::string>& left_out) {
   const std::size_t size = buffers.components(accessor) == 4 ? 4 : 3;
@@ -72,7 +72,8 @@ PolygonMesh read_primitive(const GltfDocument& document, const GltfBuffers& buff
     check_count(normals.size() / 3, count, "NORMAL");
     for (std::size_t i = 0; i < count; ++i) {
       const Vec3 normal(normals[3 * i], normals[3 * i + 1], normals[3 * i + 2]);
-      // Files have such normals where triangles have no area; one of no length is left out later.
+      // Some files have such normals at degenerate triangles. A normal of length 0 is ignored
+      // later.
       mesh.normals.push_back(finite(normal) ? normal : Vec3(0));
     }
   }
@@ -82,7 +83,7 @@ PolygonMesh read_primitive(const GltfDocument& document, const GltfBuffers& buff
     for (std::size_t i = 0; i < count; ++i) {
       if (!std::isfinite(uvs[2 * i]) || !std::isfinite(uvs[2 * i + 1]))
         fail_at(i, "texture coordinate");
-      mesh.uvs.emplace_back(uvs[2 * i], 1 - uvs[2 * i + 1]);  // v grows downwards in glTF
+      mesh.uvs.emplace_back(uvs[2 * i], 1 - uvs[2 * i + 1]);  // glTF's v points down
     }
   }
   if (attributes.contains("COLOR_0"))

@@ -7,8 +7,8 @@
 namespace pah {
 
 struct GltfPrimitive {
-  std::size_t material;  // as the file counts; its number of materials for the default one
-  PolygonMesh polygons;  // none if it is points or lines
+  std::size_t material;  // index in the file; the number of materials means the default one
+  PolygonMesh polygons;  // empty for points and lines
 };
 
 // Returns the primitives of one mesh. Adds the names of unsupported features to `left_out`. Throws
@@ -18,7 +18,7 @@ struct GltfPrimitive {
                                                         std::size_t mesh,
                                                         std::vector<std::string>& left_out);
 
-// Adds `from`, transformed and, where the transform mirrors, turned over.
+// Adds `from`, transformed. A mirroring transform flips the winding.
 void append(const PolygonMesh& from, const glm::dmat4x3& world_from_object, PolygonMesh& out);
 
 }  // namespace pah

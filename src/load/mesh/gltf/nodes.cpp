@@ -34,7 +34,7 @@ glm::dmat4x3 parent_from_node(const Json& node) {
           vec(node, "translation", DVec3(0))};
 }
 
-// A camera and a light look along -z.
+// Cameras and lights point along -z.
 DVec3 forward_of(const glm::dmat4x3& world_from_node) { return -world_from_node[2]; }
 
 class NodeReader {
@@ -47,11 +47,11 @@ class NodeReader {
         places_(places),
         out_(out) {}
 
-  // The nodes have been checked to be trees, and not to be deep.
+  // Earlier checks ensure that nodes form trees of limited depth.
   void read(std::size_t index, const glm::dmat4x3& world_from_parent) {
     const Json& node = nodes_.at(index);
     const glm::dmat4x3 world = compose(world_from_parent, parent_from_node(node));
-    // Any entry that is not finite makes the determinant so, or the translation is it.
+    // An entry that is not finite makes the determinant or the translation so.
     const DVec3 place = world[3];
     if (!std::isfinite(glm::determinant(DMat3(world))) ||
         !std::isfinite(place.x + place.y + place.z) || glm::length(place) > largest_coordinate)
@@ -66,8 +66,8 @@ class NodeReader {
   }
 
  private:
-  static std::string name_of(const Json& node, const Json& thing, const char* otherwise) {
-    return node.value("name", thing.value("name", std::string(otherwise)));
+  static std::string name_of(const Json& node, const Json& item, const char* fallback) {
+    return node.value("name", item.value("name", std::string(fallback)));
   }
 
   void read_camera(const Json& node, const Json& source, const glm::dmat4x3& world) {
@@ -119,7 +119,7 @@ class NodeReader {
   }
 
   static constexpr const char* punctual = "KHR_lights_punctual";
-  static constexpr double largest_coordinate = 1e30;  // squares of it are finite
+  static constexpr double largest_coordinate = 1e30;  // its square is finite
 
   const Json& nodes_;
   const Json& cameras_;

@@ -5,14 +5,14 @@
 
 namespace pah {
 
-// Elements in the order of their numbers in a corner.
+// Elements have the order of their indices in a corner.
 enum class ObjStatement { other, position, uv, normal, face };
 
 [[nodiscard]] ObjStatement obj_statement(std::string_view keyword);
 
 class ObjLines {
  public:
-  // `text` begins with a statement, behind `lines_before` others of its file.
+  // `text` begins with a statement and follows `lines_before` lines of its file.
   ObjLines(std::string_view text, char line_end, int lines_before)
       : left_(text), line_end_(line_end), number_(lines_before) {}
 
@@ -22,7 +22,7 @@ class ObjLines {
   // The line without trailing blanks and backslash.
   [[nodiscard]] std::string_view text() const { return text_; }
   [[nodiscard]] int number() const { return number_; }   // from 1
-  [[nodiscard]] bool begins() const { return begins_; }  // a statement
+  [[nodiscard]] bool begins() const { return begins_; }  // is it the first line of a statement?
   [[nodiscard]] bool ends() const { return ends_; }
 
  private:

@@ -31,7 +31,7 @@ struct MtlMaterial {
 
 Vec3 unit_color(const Vec3& c) { return glm::clamp(c, Vec3(0), Vec3(1)); }
 
-// Models of illumination: 4, 6, 7 and 9 refract, 5 reflects, 2 and above shine.
+// Illumination models 4, 6, 7 and 9 refract, 5 is a mirror, 2 and above have highlights.
 MaterialModel model_of(const MtlMaterial& m) {
   const float ior = m.ior > 1 ? std::min(m.ior, 4.0F) : 1.5F;
   if (m.illumination == 4 || m.illumination == 6 || m.illumination == 7 || m.illumination == 9) {
@@ -40,7 +40,7 @@ MaterialModel model_of(const MtlMaterial& m) {
     return glass;
   }
   const Vec3 specular = unit_color(m.specular);
-  // Where there is an image, exporters write a factor of 1, or of 0 and mean 1.
+  // With an image, some exporters write a factor of 0 and mean 1.
   const bool no_factor = m.diffuse_map != no_texture && m.diffuse == Vec3(0);
   const ColorInput diffuse{no_factor ? Vec3(1) : unit_color(m.diffuse), m.diffuse_map};
   if (m.illumination == 5 && specular != Vec3(0)) return MirrorMaterial{{specular, no_texture}};
@@ -49,7 +49,7 @@ MaterialModel model_of(const MtlMaterial& m) {
   PlasticMaterial plastic;
   plastic.reflectance = diffuse;
   plastic.ior = ior;
-  // GGX that is as wide as Phong's lobe (Walter et al., EGSR 2007, section 5.4).
+  // A GGX lobe as wide as Phong's (Walter et al., EGSR 2007, section 5.4).
   plastic.roughness.value = std::sqrt(std::sqrt(2 / (std::min(m.shininess, 1e6F) + 2)));
   return plastic;
 }
@@ -69,9 +69,9 @@ constexpr std::string_view ignored_keys[] = {"Ka", "Tf", "sharpness", "map_aat",
 
 // The number of arguments of a map's option; nothing if the word is not an option.
 std::optional<int> words_of_option(std::string_view option) {
-  for (const char* one :
+  for (const char* name :
        {"-blendu", "-blendv", "-bm", "-boost", "-cc", "-clamp", "-imfchan", "-texres", "-type"})
-    if (option == one) return 1;
+    if (option == name) return 1;
   if (option == "-mm") return 2;
   if (option == "-o" || option == "-s" || option == "-t") return 3;
   return std::nullopt;
@@ -87,7 +87,7 @@ class MtlReader {
         textures_(textures),
         materials_(materials) {}
 
-  // Returns the keys that are not used.
+  // Returns the unused keys.
   std::vector<std::string> read() {
     while (const auto line = file_.line()) {
       text_ = file_.line_number() == 1 ? without_byte_order_mark(*line) : *line;
@@ -152,7 +152,7 @@ class MtlReader {
     return value;
   }
 
-  // Three numbers, or one for all three; spectra are left out.
+  // Reads three numbers, or one for all three. Ignores spectra.
   void color(std::string_view key, Words& words, Vec3& value) {
     const std::string_view first = words.next();
     if (first == "spectral" || first == "xyz")
@@ -164,7 +164,7 @@ class MtlReader {
     value.z = number(words.next());
   }
 
-  // -halo dims by the angle of view, which is left out.
+  // Ignores -halo, which dims by viewing angle.
   void read_opacity(Words& words) {
     std::string_view word = words.next();
     if (word == "-halo") word = words.next();
@@ -189,7 +189,7 @@ class MtlReader {
     return textures_.add(image);
   }
 
-  // Of the numbers of -o, -s and -t, the last two may be missing.
+  // The last two numbers of -o, -s and -t are optional.
   void read_option(std::string_view option, int count, Words& words, ImageTexture& image) const {
     if (option == "-clamp") {
       image.clamp = words.next() == "on";
@@ -221,7 +221,7 @@ class MtlReader {
   std::string_view text_;
 };
 
-// The files that a line names: one, whose name may have blanks, or several.
+// Returns the files that a line names: either one, whose name may contain blanks, or several.
 std::vector<fs::path> files_of(const std::string& names, const fs::path& folder) {
   std::string text = names;
   std::replace(text.begin(), text.end(), '\\', '/');

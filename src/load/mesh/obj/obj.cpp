@@ -13,10 +13,11 @@
 namespace pah {
 namespace {
 
-// The texture coordinate or normal of every corner, stored only if it is not the corner's position.
+// The index of the texture coordinate or normal of each corner. Stored only if any differs from the
+// index of the corner's position.
 class CornerNumbers {
  public:
-  // `positions` are those of the corners before the piece.
+  // `positions` belong to the corners before the piece.
   void add(const ObjPiece& piece, std::size_t element, std::span<const std::uint32_t> positions) {
     const std::vector<std::uint32_t>& numbers = piece.corners[element];
     if (numbers.empty()) return;
@@ -111,7 +112,7 @@ class ObjReader {
   }
 
   void find_places(std::span<const std::string_view> texts) {
-    // Not the first line of the file, where a byte-order mark may be.
+    // Only the first line of the file may have a byte order mark.
     const ObjPlace elsewhere{.lines = 1, .line_end = place_.line_end};
     parallel_for(texts.size(), 1, [&](std::size_t i) {
       slots_[i].place = place_behind(texts[i], i == 0 ? place_ : elsewhere);
@@ -187,11 +188,11 @@ class ObjReader {
     }
   }
 
-  // One vertex for each combination that corners use.
+  // Makes one vertex for each combination of indices that corners use.
   void make_vertices() {
     const auto& [uvs, normals] = numbers_;
     if (!uvs.own() && !normals.own()) {
-      // Every position is a vertex.
+      // Each position is a vertex.
       const std::size_t count = polygons_.positions.size();
       polygons_.uvs.resize(uvs.none() ? 0 : count);
       polygons_.normals.resize(normals.none() ? 0 : count);
@@ -223,9 +224,9 @@ class ObjReader {
   }
 
   StatementText text_;
-  std::uint64_t pieces_left_;  // about
+  std::uint64_t pieces_left_;  // approximate
   std::uint64_t max_triangles_;
-  ObjPlace place_;  // where the text that is read next begins
+  ObjPlace place_;  // of the next text
   std::vector<Slot> slots_;
   PolygonMesh polygons_;
   std::array<CornerNumbers, 2> numbers_;  // of texture coordinates and normals

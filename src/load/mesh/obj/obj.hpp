@@ -11,14 +11,14 @@ namespace pah {
 
 struct ObjFile {
   PolygonMesh polygons;                // materials are indices of `materials`
-  std::vector<std::string> materials;  // names; the first, of faces without one, is empty
-  std::vector<std::string> libraries;  // .mtl files, each one name or several, as written
+  std::vector<std::string> materials;  // names; the first is empty, for faces without a material
+  std::vector<std::string> libraries;  // .mtl files as written, one or several names each
   std::vector<std::string> warnings;
 };
 
-// Points, lines, groups, smoothing groups and colors are left out in silence, free-form curves and
-// surfaces with a warning. The file is read in pieces of about `piece_bytes`, several at once;
-// their size changes nothing. Throws MeshFileError, with line and column.
+// Ignores points, lines, groups, smoothing groups and colors silently, and free-form curves and
+// surfaces with a warning. Reads pieces of about `piece_bytes` in parallel; their size does not
+// change the result. Throws MeshFileError, with line and column.
 [[nodiscard]] ObjFile read_obj(const std::filesystem::path& file, const MeshFileOptions& options,
                                std::size_t piece_bytes = 1U << 17);
 

@@ -37,7 +37,7 @@ ObjPlace place_behind(std::string_view text, const ObjPlace& place) {
                          static_cast<std::size_t>(ObjStatement::position);
     if (element < behind.counts.size()) ++behind.counts[element];
   };
-  // Without a backslash every line is a statement.
+  // Without a backslash, each line is a statement.
   if (place.lines > 0 && text.find('\\') == std::string_view::npos) {
     while (!text.empty()) {
       const std::size_t size = std::min(text.find(place.line_end), text.size());
@@ -204,7 +204,7 @@ void ObjPiece::corner(const Words& words, std::string_view word) {
   ++count_;
 }
 
-// Numbers count from 1, or back from the last.
+// Indices count from 1, or back from the last element.
 std::int64_t ObjPiece::unusual_number(std::size_t element, std::int64_t number, int column) {
   const std::int64_t count = counts_[element];
   if (number < 0 && number < -count)

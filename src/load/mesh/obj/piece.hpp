@@ -18,9 +18,9 @@ inline constexpr std::array<const char*, 3> obj_elements{"vertex position", "tex
                                                          "normal"};
 using ObjCounts = std::array<std::int64_t, 3>;
 
-// Where a piece begins.
+// The place where a piece begins: counts of everything before it.
 struct ObjPlace {
-  ObjCounts counts{};  // of elements before it, as are the others
+  ObjCounts counts{};  // of elements
   std::uint64_t triangles = 0;
   int lines = 0;
   char line_end = '\n';
@@ -31,7 +31,7 @@ struct ObjPlace {
 
 class ObjPiece {
  public:
-  // The highest number of an element that a face used before it was there.
+  // The highest index of an element that a face used before the element was defined.
   struct Early {
     std::int64_t number = 0;
     int line = 0;
@@ -39,7 +39,7 @@ class ObjPiece {
     std::string excerpt;
   };
   struct MaterialUse {
-    std::size_t first_face;  // of the piece
+    std::size_t first_face;  // in the piece
     std::string_view name;   // in the text
   };
   struct Ignored {
@@ -47,7 +47,7 @@ class ObjPiece {
     int line;
   };
 
-  // Throws MeshFileError, also if the file so far has more than `most_triangles`.
+  // Throws MeshFileError, also if the file has more than `most_triangles` up to here.
   void read(std::string_view text, const ObjPlace& place, std::uint64_t most_triangles);
 
   std::vector<Vec3> positions;
@@ -55,7 +55,7 @@ class ObjPiece {
   std::vector<Vec3> normals;
   std::vector<std::uint16_t> face_sizes;
   std::uint64_t triangles = 0;
-  // The element that each corner uses, from 0, or no_index.
+  // The index of the element that each corner uses, from 0, or no_index.
   std::array<std::vector<std::uint32_t>, 3> corners;
   std::array<Early, 3> early;
   std::vector<MaterialUse> material_uses;
@@ -82,7 +82,7 @@ class ObjPiece {
   ObjStatement statement_ = ObjStatement::other;
   std::size_t count_ = 0;  // numbers or corners of the statement so far
   float numbers_[3] = {};
-  std::string_view text_;  // the line at hand
+  std::string_view text_;  // the current line
   int line_ = 0;
 };
 

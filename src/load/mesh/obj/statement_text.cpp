@@ -32,22 +32,22 @@ std::span<const std::string_view> StatementText::next(std::size_t most, int line
   pieces_.clear();
   for (std::size_t wanted = most * piece_bytes_;; wanted *= 2) {
     std::string_view text = file_.ahead(wanted);
-    const bool all = text.size() == file_.left();
+    const bool at_end = text.size() == file_.left();
     std::size_t used = 0;
     while (!text.empty() && pieces_.size() < most) {
       std::size_t size =
           text.size() < piece_bytes_ ? 0 : find_cut(text, piece_bytes_ - 1, line_end());
-      if (size == 0 && all) size = text.size();
+      if (size == 0 && at_end) size = text.size();
       if (size == 0) break;
       pieces_.push_back(text.substr(0, size));
       text.remove_prefix(size);
       used += size;
     }
     const bool too_long = pieces_.empty() && text.size() > longest_line;
-    // What stands before a line without end is read first.
-    if (too_long && !all) used = find_last_cut(text, line_end());
+    // Reads the statements before an endless line first.
+    if (too_long && !at_end) used = find_last_cut(text, line_end());
     if (pieces_.empty() && used > 0) pieces_.push_back(text.substr(0, used));
-    if (!pieces_.empty() || all) {
+    if (!pieces_.empty() || at_end) {
       file_.skip(used);
       return pieces_;
     }

@@ -9,7 +9,7 @@
 
 namespace pah {
 
-// Pieces end behind lines whose last character is no backslash, so that no statement is cut.
+// Pieces end after a line without a backslash at its end, so that no statement is cut.
 class StatementText {
  public:
   // Pieces have about `piece_bytes`.

@@ -86,7 +86,7 @@ class HeaderReader {
         std::from_chars(word.data(), word.data() + word.size(), element.count);
     if (wrong != std::errc{} || end != word.data() + word.size())
       fail("'" + excerpt_of(word.substr(0, 40)) + "' is not a number of elements", word);
-    // Each takes a byte or more.
+    // Each element takes at least a byte.
     if (element.count > file_.size())
       fail("the file is too short for '" + excerpt_of(line_) + "'", word);
     header_.elements.push_back(std::move(element));
@@ -108,7 +108,7 @@ class HeaderReader {
     header_.elements.back().properties.push_back(std::move(property));
   }
 
-  // What all elements take at least: in text, a digit and a blank a number.
+  // Checks the least size of all elements. In text, a number takes a digit and a blank.
   void check_sizes() const {
     for (const PlyElement& element : header_.elements) {
       std::uint64_t bytes = 0;

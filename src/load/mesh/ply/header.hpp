@@ -19,7 +19,7 @@ struct PlyProperty {
   std::string name;
   PlyType type = PlyType::f32;
   bool is_list = false;
-  PlyType count_type = PlyType::u8;  // of lists: a whole number
+  PlyType count_type = PlyType::u8;  // of a list's length; an integer type
 };
 
 struct PlyElement {

@@ -55,9 +55,10 @@ double load(const char* bytes, PlyType type, bool swaps) {
   return 0;
 }
 
-// Where a vertex's numbers go: position, normal, texture coordinates; -1 for those left out.
+// A vertex's numbers in slots: position, normal, texture coordinates.
 constexpr int slot_count = 8;
 
+// Returns -1 for a property that is ignored.
 int slot_of(std::string_view name) {
   constexpr std::string_view names[] = {"x", "y", "z", "nx", "ny",        "nz",
                                         "u", "v", "s", "t",  "texture_u", "texture_v"};
@@ -96,7 +97,7 @@ class PlyReader {
     throw MeshFileError(message, file_.line_number(), static_cast<int>(column), excerpt_of(line_));
   }
 
-  // "vertex 7"
+  // Returns the current element's name and index: "vertex 7".
   [[nodiscard]] std::string which() const { return element_->name + " " + std::to_string(index_); }
 
   [[noreturn]] void fail_at_end() const {
@@ -126,7 +127,7 @@ class PlyReader {
   // Reserves what most files need, but never more than the file can hold, whatever its header
   // claims.
   void reserve(std::uint64_t count) {
-    constexpr std::uint64_t least_bytes = 12;  // three floats or numbers of vertices
+    constexpr std::uint64_t least_bytes = 12;  // three floats or indices
     const auto expected = static_cast<std::size_t>(std::min(count, file_.left() / least_bytes));
     if (is_vertex_) {
       mesh_.positions.reserve(expected);
@@ -163,7 +164,7 @@ class PlyReader {
       fail("there are more numbers than " + which() + " has by the header", word);
   }
 
-  // An element stands on a line of its own; one without numbers, on none.
+  // Each element has its own line, except for elements without properties.
   void next_line() {
     words_ = Words("");
     if (element_->properties.empty()) return;
@@ -178,7 +179,7 @@ class PlyReader {
   double next_number(PlyType type) {
     if (!text_) return load(next_bytes(type), type, swaps_);
     next_word();
-    // Not as a float, which skips whole numbers above 2^24.
+    // Floats cannot represent all whole numbers above 2^24.
     const char* const first = word_.data();
     const char* const last = first + word_.size();
     std::int64_t whole = 0;
@@ -284,7 +285,7 @@ class PlyReader {
     const bool own_uvs = uvs_.size() == 2 * list_.size();
     if (list_.size() < 3) return;  // a point or a line
     if (own_uvs || !corner_uvs_.empty()) {
-      // Those of faces before may be none.
+      // Earlier faces may have no texture coordinates.
       corner_uvs_.resize(mesh_.corners.size(), Vec2(0));
       for (std::size_t k = 0; k < list_.size(); ++k)
         corner_uvs_.push_back(own_uvs ? Vec2(uvs_[2 * k], uvs_[2 * k + 1]) : Vec2(0));
@@ -326,7 +327,7 @@ class PlyReader {
                          " bytes exceed what the header declares, and are left out");
     }
     if (corner_uvs_.empty()) return;
-    // Every corner is a vertex.
+    // Each corner becomes a vertex of its own.
     corner_uvs_.resize(mesh_.corners.size(), Vec2(0));
     mesh_.uvs = std::move(corner_uvs_);
     for (std::size_t i = 0; i < mesh_.corners.size(); ++i) {
@@ -348,18 +349,18 @@ class PlyReader {
   bool has_uvs_ = false;
   std::uint64_t vertices_ = 0;
   PolygonMesh mesh_;
-  std::vector<Vec2> corner_uvs_;  // of all corners so far, if any face has its own
+  std::vector<Vec2> corner_uvs_;  // of all corners so far, if any face has texture coordinates
 
-  // The element at hand.
+  // The current element.
   const PlyElement* element_ = nullptr;
   std::uint64_t index_ = 0;
   bool is_vertex_ = false;
   bool is_face_ = false;
   bool is_strips_ = false;
-  std::vector<int> slots_;     // of its properties, as numbers of a vertex
-  std::vector<ListUse> uses_;  // of its properties, as lists of a face or strip
+  std::vector<int> slots_;     // of its properties, if it is a vertex
+  std::vector<ListUse> uses_;  // of its properties, if it is a face or strip
   std::string_view line_;
-  std::string_view word_;  // of the number read last
+  std::string_view word_;  // the last number read
   Words words_{""};
   std::vector<std::uint32_t> list_;
   std::vector<float> uvs_;

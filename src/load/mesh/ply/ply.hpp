@@ -7,10 +7,10 @@
 
 namespace pah {
 
-// Positions, normals and texture coordinates of vertices (u and v, s and t, or texture_u and
-// texture_v), faces with texture coordinates of their own if they have any, triangle strips; other
-// properties are left out in silence. What stands behind the last element gets a warning. Throws
-// MeshFileError, with line and column where the file is text.
+// Reads positions, normals and texture coordinates of vertices (u and v, s and t, or texture_u and
+// texture_v), faces with optional texture coordinates, and triangle strips. Ignores other
+// properties silently. Data after the last element cause a warning. Throws MeshFileError, with line
+// and column if the file is text.
 [[nodiscard]] PolygonMesh read_ply(const std::filesystem::path& file,
                                    const MeshFileOptions& options,
                                    std::vector<std::string>& warnings);

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <fstream>
-#include <span>
 #include <vector>
 
 #include "base/little_endian.hpp"
@@ -15,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Names in the folder of a file that is not there, for a suggestion.
+// Suggests a file in the folder with a name similar to that of a missing file.
 std::string near_names(const fs::path& file) {
   constexpr std::size_t most = 1000;
   std::vector<std::string> names;
@@ -28,7 +27,7 @@ std::string near_names(const fs::path& file) {
   return suggestion(file.filename().string(), names);
 }
 
-// False if the file cannot be read.
+// Adds a file to the hash; returns false if the file cannot be read.
 bool add_file(const fs::path& file, ContentHash& hash) {
   std::ifstream stream(file, std::ios::binary);
   std::array<char, 1 << 16> buffer{};
@@ -37,10 +36,10 @@ bool add_file(const fs::path& file, ContentHash& hash) {
   return stream.eof();
 }
 
-// A larger file is hashed in blocks of so much, several at once.
+// Larger files are hashed in blocks of this size in parallel.
 constexpr std::size_t block_bytes = std::size_t{1} << 20;
 
-// As add_file(), of a large file of `size` bytes.
+// Like add_file(), for a large file of `size` bytes.
 bool add_blocks(const fs::path& file, std::uintmax_t size, ContentHash& hash) {
   struct Block {
     ContentHash hash;
@@ -50,7 +49,7 @@ bool add_blocks(const fs::path& file, std::uintmax_t size, ContentHash& hash) {
   parallel_ranges(blocks.size(), 8, [&](std::size_t first, std::size_t last) {
     std::ifstream stream(file, std::ios::binary);
     stream.seekg(static_cast<std::streamoff>(first * block_bytes));
-    std::vector<char> buffer(1U << 17);  // divides a block, and stays in a cache
+    std::vector<char> buffer(1U << 17);  // divides a block and fits the cache
     for (std::size_t i = first; i < last; ++i) {
       const std::uintmax_t end = std::min<std::uintmax_t>(size, (i + 1) * block_bytes);
       for (std::uintmax_t at = i * block_bytes; at < end && stream; at += buffer.size()) {
@@ -75,7 +74,7 @@ void ContentHash::step(std::uint64_t bits) {
   const std::uint64_t bottom = (low_ & 0xFFFFFFFFU) * prime;
   const std::uint64_t top = (low_ >> 32U) * prime + (bottom >> 32U);
   high_ = high_ * prime + (top >> 32U) + (low_ << 24U);
-  low_ *= prime;  // shorter to wait for than joining the halves
+  low_ *= prime;  // lower latency than joining the halves
 }
 
 void ContentHash::add(std::string_view bytes) {
@@ -83,11 +82,10 @@ void ContentHash::add(std::string_view bytes) {
 }
 
 void ContentHash::add_words(std::string_view bytes) {
-  const std::span<const char> all(bytes);
-  const std::size_t words = all.size() / 8;
+  const std::size_t words = bytes.size() / 8;
   for (std::size_t i = 0; i < words; ++i) {
-    const std::span<const char> word = all.subspan(8 * i, 8);
-    step(load_u32(&word[0]) | std::uint64_t{load_u32(&word[4])} << 32U);
+    const char* const word = bytes.data() + 8 * i;
+    step(load_u32(word) | std::uint64_t{load_u32(word + 4)} << 32U);
   }
   add(bytes.substr(8 * words));
 }

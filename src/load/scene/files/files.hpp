@@ -14,7 +14,7 @@
 
 namespace pah {
 
-// FNV-1a, 128 bits (Fowler, Noll, Vo; RFC 9923): tells scenes apart, not proof against malice.
+// FNV-1a with 128 bits (Fowler, Noll, Vo; RFC 9923). Distinguishes scenes, but not against attacks.
 class ContentHash {
  public:
   void add(std::string_view bytes);
@@ -35,8 +35,7 @@ class SceneFiles {
  public:
   using OnFile = std::function<void(const std::filesystem::path&)>;
 
-  // `on_file` is called with the whole path of each file before it is looked at.
-  // `loaded` may be null.
+  // Calls `on_file` with the full path of each file before accessing it. `loaded` may be null.
   explicit SceneFiles(std::filesystem::path folder, OnFile on_file = {},
                       LoadedFiles::Impl* loaded = nullptr)
       : folder_(std::move(folder)), on_file_(std::move(on_file)), loaded_(loaded) {}
@@ -70,7 +69,7 @@ class SceneFiles {
   OnFile on_file_;
   LoadedFiles::Impl* loaded_;
   ContentHash hash_;
-  std::unordered_map<std::string, bool> seen_;  // by whole path: readable
+  std::unordered_map<std::string, bool> seen_;  // full path: is it readable?
 };
 
 }  // namespace pah

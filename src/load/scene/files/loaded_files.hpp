@@ -51,8 +51,8 @@ struct ReadMeshFile {
 };
 
 struct LoadedFiles::Impl {
-  KeptValues<ReadMeshFile> meshes;           // by path and how they are read
-  KeptValues<std::string> hashes;            // of contents, by path
+  KeptValues<ReadMeshFile> meshes;           // by path and options
+  KeptValues<std::string> hashes;            // of content, by path
   KeptValues<std::uint64_t> picture_checks;  // numbers of unusable values, by path
 
   void drop_unused() {

@@ -33,7 +33,7 @@ bool is_same_word(std::string_view a, std::string_view b) {
   return std::ranges::equal(a, b, {}, lower, lower);
 }
 
-// "2 GiB", "1.5gb": digits, then a unit in any case.
+// Parses "2 GiB" or "1.5gb": a number, then a unit in upper or lower case.
 std::optional<std::uint64_t> parse_bytes(std::string_view text) {
   if (text.empty() || text.front() < '0' || text.front() > '9') return std::nullopt;
   double number = 0;
@@ -46,7 +46,7 @@ std::optional<std::uint64_t> parse_bytes(std::string_view text) {
       units, [&](const Unit& known) { return is_same_word(known.name, text); });
   if (unit == units.end()) return std::nullopt;
   const double bytes = std::ceil(number * unit->bytes);
-  // No memory is larger than what is addressed.
+  // Saturates: no memory is larger than the address space.
   return bytes < 0x1p64 ? static_cast<std::uint64_t>(bytes) : UINT64_MAX;
 }
 
@@ -64,7 +64,7 @@ void read_bytes(ReadContext& context, const YamlNode& node, const ValueName& nam
 }
 
 constexpr NumberRange ratio_range{0, 2, false, false};
-constexpr std::uint32_t most_levels = 48;  // deeper ones are built by halves anyhow
+constexpr std::uint32_t most_levels = 48;  // deeper nodes are split in halves anyway
 
 void read_leaf_rules(MapReader& map, LeafRules& rules) {
   map.optional("max_leaf_cost", rules.cost, not_negative);

@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::size_t perspective = 0;
 
-// Position, look_at and up, which must span a plane.
+// Reads position, look_at and up. The view direction and up must not be parallel.
 template <class CameraType>
 void read_pose(MapReader& map, CameraType& camera) {
   map.optional("position", camera.position);
@@ -20,8 +20,8 @@ void read_pose(MapReader& map, CameraType& camera) {
     map.error("look_at", "camera looks at its own position");
     return;
   }
-  // The sine of the angle between two unit vectors comes out of cross() with an error of some ulps:
-  // below that, no direction is more "up" than another.
+  // cross() gives the sine of the angle between unit vectors with an error of some ulps. Below
+  // that, the direction of up is arbitrary.
   const DVec3 up = camera.up;
   const double scale = std::max({std::abs(up.x), std::abs(up.y), std::abs(up.z)});
   if (scale == 0) {
@@ -34,7 +34,7 @@ void read_pose(MapReader& map, CameraType& camera) {
 }
 
 void read_lens(MapReader& map, PerspectiveCamera& camera) {
-  constexpr double narrow = 3;  // of a telescope; or radians
+  constexpr double narrow = 3;  // degrees: a telescope, or a value meant in radians
   if (map.optional("fov", camera.fov, NumberRange{0, 180, true, true}) && camera.fov < narrow)
     map.context().errors.warn(map.mark_of("fov"), "'fov' is in degrees, and this is very narrow");
   map.optional("aperture_radius", camera.aperture_radius, not_negative);
@@ -136,7 +136,7 @@ void adopt_camera(SceneReading& reading, const Camera& camera, const Mark& mark)
                                "the mesh file's camera is orthographic: it has no lens");
     return;
   }
-  // What is wrong with it has been reported when the section was read.
+  // Errors were reported when the section was read.
   MapReader map(reading.context, node, "camera perspective", "camera");
   read_lens(map, *perspective_camera);
 }

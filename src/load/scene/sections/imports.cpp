@@ -76,7 +76,7 @@ ReadMeshFile read_or_take(SceneReading& reading, const std::filesystem::path& pa
   return read;
 }
 
-// Reads the file into the scene; the ids in it become the scene's.
+// Adds the file's content to the scene, and converts its ids to the scene's.
 ImportedFile add_file(SceneReading& reading, MeshFile file, const Mark& mark) {
   Scene& scene = reading.scene;
   const auto first_mesh = static_cast<MeshId>(scene.meshes.size());
@@ -152,7 +152,7 @@ Light scaled(Light light, double factor) {
   return light;
 }
 
-// The one that is asked for by name, or the first.
+// Returns the camera called `name`, or the first camera if `name` is empty.
 const NamedCamera* chosen_camera(SceneReading& reading, const ImportedFile& file,
                                  const std::string& name, const Mark& mark) {
   std::vector<std::string> names;

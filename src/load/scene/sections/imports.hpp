@@ -10,8 +10,8 @@ struct FileUse {
   bool materials = false;
   bool cameras = false;
   bool lights = false;
-  std::string camera;      // the one to take; the first if empty
-  double light_scale = 1;  // of all lights, emission included
+  std::string camera;      // name of the camera to take; the first if empty
+  double light_scale = 1;  // factor for all lights and emission
   struct Replacement {
     std::string name;  // of a material of the file
     MaterialId by;
@@ -32,8 +32,8 @@ struct FileUse {
 [[nodiscard]] std::vector<MaterialId> materials_of(SceneReading& reading, const ImportedFile& file,
                                                    const FileUse& use);
 
-// Adds the file's camera and lights as `use` says, standing at each of `copies`; returns the light
-// of each part, no_light where it does not emit. `mark` is where the use is asked for.
+// Adds the file's camera and lights at each of `copies`, as `use` selects. Returns the light of
+// each part, or no_light if it does not emit. `mark` is the place of the use in the scene.
 [[nodiscard]] std::vector<LightId> use_file(SceneReading& reading, const ImportedFile& file,
                                             const FileUse& use, const std::string& mesh_name,
                                             const std::vector<glm::dmat4x3>& copies,

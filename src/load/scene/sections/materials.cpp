@@ -55,7 +55,7 @@ void read_model(SceneReading& reading, MapReader& map, PrincipledMaterial& mater
   map.optional("ior", material.ior, positive);
 }
 
-// The default of each type, in the order of the names.
+// The names of the types, and their defaults in the same order.
 const std::vector<std::string> type_names{"diffuse", "mirror",  "glass",
                                           "metal",   "plastic", "principled"};
 const std::vector<MaterialModel> type_defaults{DiffuseMaterial{}, MirrorMaterial{},

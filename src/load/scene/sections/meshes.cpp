@@ -12,14 +12,14 @@ namespace {
 using Kind = YamlNode::Kind;
 using Transforms = std::vector<glm::dmat4x3>;
 
-// The largest coordinates of a mesh, whatever their signs.
+// Returns the largest absolute coordinates of a mesh.
 DVec3 extent_of(const Mesh& mesh) {
   Vec3 extent(0);
   for (const Vec3& position : mesh.positions) extent = glm::max(extent, glm::abs(position));
   return extent;
 }
 
-// Adds an instance of the mesh at every copy, if the scene has room for their triangles.
+// Adds an instance of the mesh for each copy, unless the triangles exceed the limit.
 void add_instances(SceneReading& reading, const MapReader& map, const Instance& instance,
                    const Transforms& copies) {
   const Mesh& mesh = reading.scene.meshes[instance.mesh];
@@ -72,7 +72,7 @@ void read_shape_geometry(SceneReading& reading, MapReader& map, const YamlNode& 
   add_instances(reading, map, instance, copies);
 }
 
-// The keys that only files have, apart from `file` itself.
+// Reads the key `replace`, which only files have.
 void read_replacements(SceneReading& reading, MapReader& map, FileUse& use) {
   const YamlNode* node = map.find("replace");
   if (node == nullptr || !is_map(map.context(), node, map.name_of("replace"))) return;

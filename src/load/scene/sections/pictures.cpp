@@ -11,7 +11,7 @@ void check_pictures(SceneReading& reading) {
     const NamedPicture& named;
     std::string fault{};
     std::uint64_t unusable = 0;
-    FileStamp stamp{};  // before the check
+    FileStamp stamp{};  // taken before the check
   };
   LoadedFiles::Impl* const loaded = reading.files.loaded();
   std::vector<Check> checks;

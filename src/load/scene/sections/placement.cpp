@@ -38,7 +38,7 @@ bool check_count(SceneReading& reading, const Mark& mark, std::uint64_t count) {
   return false;
 }
 
-// The pattern in its own frame, then its own transform.
+// Applies the pattern's own transform to the copies.
 Transforms moved(ReadContext& context, MapReader& map, Transforms copies) {
   map.nested("transform", [&](const YamlNode* node) {
     const glm::dmat4x3 outer(read_transform(context, node, map.title()));

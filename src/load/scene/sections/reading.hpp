@@ -24,7 +24,7 @@ class NameTable {
   bool add(ReadContext& context, const std::string& name, std::uint32_t id, const Mark& mark);
   // Does nothing if the name exists.
   void add_unless_known(const std::string& name, std::uint32_t id);
-  // Reports an unknown name.
+  // Returns the id of the name, or reports that it is unknown.
   std::optional<std::uint32_t> find(ReadContext& context, const YamlNode& node,
                                     const ValueName& name) const;
 
@@ -40,10 +40,10 @@ class NameTable {
 
 inline constexpr std::size_t no_instance = ~std::size_t{0};
 
-// A mesh file, its meshes, materials and textures in the scene.
+// A mesh file whose meshes, materials and textures are in the scene.
 struct ImportedFile {
   std::vector<MeshFilePart> parts;  // ids are the scene's
-  std::vector<AreaLight> emission;  // per part
+  std::vector<AreaLight> emission;  // one per part
   std::vector<NamedCamera> cameras;
   std::vector<Light> lights;
 };
@@ -63,10 +63,10 @@ struct SceneReading {
   NameTable materials{"material"};
   NameTable meshes{"mesh"};
   NameTable lights{"light"};
-  std::unordered_map<std::string, TextureId> images{};       // inline ones, by path and color space
+  std::unordered_map<std::string, TextureId> images{};  // inline images, by path and color space
   std::unordered_map<TextureId, TextureId> linear_copies{};  // of images used as numbers
   std::map<std::filesystem::path, NamedPicture> pictures{};  // of textures
-  std::vector<std::size_t> first_instances{};  // by id in `meshes`; no_instance if it has none
+  std::vector<std::size_t> first_instances{};  // by id in `meshes`; no_instance without an instance
   std::unordered_map<std::string, ImportedFile> imported{};  // mesh files, by path and options
   std::unordered_map<int, MaterialId> unnamed_materials{};   // by reflectance in percent
   std::uint64_t triangles = 0;                               // of all instances so far
@@ -74,13 +74,13 @@ struct SceneReading {
   bool has_imported_camera = false;                          // from a mesh file
 };
 
-// "mesh 'floor'", or "mesh 3" (from 1) if it has no name.
+// Returns "mesh 'floor'", or "mesh 3" (from 1) for a mesh without a name.
 [[nodiscard]] std::string title_of(const YamlNode& node, const std::string& kind,
                                    std::size_t index);
 
 void read_camera(SceneReading& reading, const YamlNode* node);
-// Makes a mesh file's camera the scene's, adjusted by the camera section, which must not place one
-// itself. `mark` is where the file's camera is asked for.
+// Makes a mesh file's camera the scene's, adjusted by the camera section, which must not place a
+// camera itself. `mark` is the place that selects the file's camera.
 void adopt_camera(SceneReading& reading, const Camera& camera, const Mark& mark);
 void read_film(SceneReading& reading, const YamlNode* node);
 void read_render(SceneReading& reading, const YamlNode* node);
@@ -91,10 +91,10 @@ void read_lights(SceneReading& reading, const YamlNode* node);
 void read_influence_areas(SceneReading& reading, const YamlNode* node);
 void read_acceleration(SceneReading& reading, const YamlNode* node);
 
-// A linear color: [r, g, b], one number for all three, or "#rrggbb" in sRGB.
+// Reads a linear color: [r, g, b], one number for all three, or "#rrggbb" in sRGB.
 bool read_color(ReadContext& context, const YamlNode& node, const ValueName& name, Vec3& value,
                 const NumberRange& range = not_negative);
-// Values, or {texture: name} or {image: file}, scaled; `range` is that of value and scale.
+// Reads a value, or a scaled {texture: name} or {image: file}. `range` limits value and scale.
 void read_input(SceneReading& reading, MapReader& map, std::string_view key, ColorInput& input,
                 const NumberRange& range);
 void read_input(SceneReading& reading, MapReader& map, std::string_view key, ScalarInput& input,
@@ -102,14 +102,14 @@ void read_input(SceneReading& reading, MapReader& map, std::string_view key, Sca
 // Reads {texture: name} or {image: file} as numbers, not as colors.
 void read_normal_map(SceneReading& reading, MapReader& map, std::string_view key,
                      TextureId& texture);
-// The texture for an image file that something names directly.
+// Returns the texture of an image file that is named without a texture.
 std::optional<TextureId> image_texture(SceneReading& reading, const YamlNode& node,
                                        const ValueName& name, ColorSpace color_space);
 
-// A list of steps, the first applied first, or one step.
+// Reads one step or a list of steps, which apply in order.
 [[nodiscard]] DMat4 read_transform(ReadContext& context, const YamlNode* node,
                                    const std::string& title);
-// {axis, angle}, or an angle about y.
+// Reads {axis, angle}, or an angle about y.
 [[nodiscard]] DMat3 read_rotation(ReadContext& context, const YamlNode* node,
                                   const ValueName& name);
 // Reads the keys transform, repeat and scatter: the placement of all copies.
@@ -121,16 +121,16 @@ struct GeometryUse {
   std::optional<MaterialId> material;
   LightId light = no_light;
 };
-// The keys `shape` or `file` with all that belongs to them, and the placement: adds meshes and
-// instances to the scene.
+// Reads the key `shape` or `file` with its options and the placement, and adds meshes and instances
+// to the scene.
 void read_geometry(SceneReading& reading, MapReader& map, const GeometryUse& use);
 
-// The material that `key` names.
+// Returns the material that the key `material` names.
 [[nodiscard]] std::optional<MaterialId> read_material_name(SceneReading& reading, MapReader& map);
-// A gray diffuse material that the scene does not name, made when first needed.
+// Returns a gray diffuse material without a name, which is made when first needed.
 [[nodiscard]] MaterialId unnamed_material(SceneReading& reading, int percent);
 
-// Reports the pictures that cannot be read or are too large; warns of values that are not numbers.
+// Reports pictures that cannot be read or are too large, and warns of values that are not finite.
 void check_pictures(SceneReading& reading);
 
 }  // namespace pah

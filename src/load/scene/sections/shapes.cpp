@@ -5,8 +5,8 @@
 namespace pah {
 namespace {
 
-constexpr int most_round = 65536;   // segments of what is round in one direction
-constexpr int most_patched = 8192;  // and in two
+constexpr int most_round = 65536;   // segments of shapes that are round in one direction
+constexpr int most_patched = 8192;  // and in two directions
 constexpr std::uint64_t most_heights = 1ULL << 31U;
 
 void read_keys(MapReader& map, RectangleShape& shape) {

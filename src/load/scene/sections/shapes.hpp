@@ -1,4 +1,4 @@
-// The shapes of the language.
+// The shapes of the scene language.
 #pragma once
 
 #include <optional>
@@ -11,8 +11,8 @@ namespace pah {
 // In the order of Shape's alternatives.
 [[nodiscard]] const std::vector<std::string>& shape_names();
 
-// Reads the keys of the shape named shape_names()[index]; nothing, and an error, if it cannot be
-// made within `most_triangles`.
+// Reads the keys of the shape named shape_names()[index]. Reports an error and returns nothing if
+// they are wrong or the shape needs more than `most_triangles`.
 [[nodiscard]] std::optional<Shape> read_shape(SceneReading& reading, MapReader& map,
                                               std::size_t index, std::uint64_t most_triangles);
 

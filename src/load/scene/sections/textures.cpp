@@ -1,4 +1,4 @@
-// The textures section, and colors and scalars that a texture may stand for.
+// The textures section, and colors and scalars that a texture may replace.
 #include <algorithm>
 
 #include "image/srgb.hpp"
@@ -28,7 +28,7 @@ TextureId shared_image(SceneReading& reading, const ImageTexture& image) {
   return entry->second;
 }
 
-// The texture as numbers: an image of unstated color space is then linear.
+// Returns the texture for use as numbers: without a declared color space, an image is then linear.
 TextureId as_numbers(SceneReading& reading, TextureId id) {
   const auto* image = std::get_if<ImageTexture>(&reading.scene.textures[id]);
   if (image == nullptr || image->color_space != ColorSpace::automatic) return id;
@@ -41,7 +41,7 @@ TextureId as_numbers(SceneReading& reading, TextureId id) {
   return entry->second;
 }
 
-// The keys `texture` and `image` of a map, one of which must be there.
+// Reads the keys `texture` and `image` of a map, which must have exactly one of them.
 TextureId read_source(SceneReading& reading, MapReader& map, bool numbers) {
   const YamlNode* texture = map.find("texture");
   const YamlNode* image = map.find("image");
@@ -59,7 +59,7 @@ TextureId read_source(SceneReading& reading, MapReader& map, bool numbers) {
   return numbers ? as_numbers(reading, *id) : *id;
 }
 
-// A number for both or one for each.
+// Reads one number for both, or one for each.
 bool read_pair(MapReader& map, std::string_view key, DVec2& value) {
   const YamlNode* node = map.find(key);
   if (node == nullptr) return false;
@@ -221,7 +221,7 @@ void read_textures(SceneReading& reading, const YamlNode* node) {
   if (!is_map(reading.context, node, "textures")) return;
   for (const YamlEntry& entry : node->entries) {
     const auto texture = read_one(entry.value.get(), "texture '" + entry.key + "'");
-    // A texture with errors keeps its name, so that its users are not reported too.
+    // A texture with errors keeps its name, so that its uses cause no further errors.
     const TextureId id = texture ? add_texture(reading.scene, *texture) : no_texture;
     reading.textures.add(reading.context, entry.key, id, entry.mark);
   }

@@ -1,4 +1,4 @@
-// Transforms, and the copies that repeat and scatter make.
+// Transforms: steps of translation, rotation, scale and look_at.
 #include <algorithm>
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
@@ -13,8 +13,8 @@ namespace {
 
 using Kind = YamlNode::Kind;
 
-// Whether the determinant differs from 0 by more than its rounding error: each of its six triple
-// products passes at most five roundings.
+// Returns whether the determinant differs from 0 by more than its rounding error. Each of its six
+// triple products goes through at most five roundings.
 bool invertible(const DMat4& m) {
   double determinant = 0, magnitude = 0;
   for (int i = 0; i < 3; ++i) {
@@ -46,7 +46,7 @@ bool read_axis(MapReader& map, DVec3& axis) {
   return index < 3;
 }
 
-// Exact for quarter turns, so that a floor turned into a wall stays flat.
+// Is exact for quarter turns, so that a floor turned into a wall stays flat.
 DMat3 rotation_about(const DVec3& axis, double degrees) {
   const double turn = std::fmod(degrees, 360.0);
   const double quarters = turn / 90;
@@ -73,7 +73,7 @@ DMat4 read_scale(ReadContext& context, const YamlNode& node, const ValueName& na
   return glm::scale(DMat4(1.0), factors);
 }
 
-// The object's -z axis points from `from` to `to`, its y axis upwards: as cameras stand.
+// Turns the object as a camera: its -z axis points from `from` to `to`, its y axis up.
 DMat4 read_look_at(ReadContext& context, const YamlNode* node, const std::string& title) {
   DMat4 result(1.0);
   read_map(context, node, "look_at", "look_at of " + title, [&](MapReader& map) {
@@ -110,7 +110,7 @@ DMat4 read_matrix(ReadContext& context, const YamlNode& node, const ValueName& n
   return matrix;
 }
 
-// One step: a map with one key.
+// Reads a step, a map with one key.
 DMat4 read_step(ReadContext& context, const YamlNode* node, const std::string& title) {
   DMat4 result(1.0);
   const std::string step_title = "transform of " + title;
