@@ -21,9 +21,9 @@ void succeed(const Words& arguments) {
   REQUIRE(outcome.exit_code == 0);
 }
 
-void render_part(const std::string& file, const std::string& samples, const Words& more = {}) {
+void render_part(const std::string& file, const std::string& samples, const Words& options = {}) {
   Words arguments{"scene.yaml", "-o", file, "--samples", samples};
-  arguments.insert(arguments.end(), more.begin(), more.end());
+  arguments.insert(arguments.end(), options.begin(), options.end());
   succeed(arguments);
 }
 

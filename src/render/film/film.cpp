@@ -60,10 +60,10 @@ void add(Film& sum, const Film& other) {
       sum.at(x, y).add(other.at(x, y));
       FilmFeatures* const features = sum.features_at(x, y);
       if (features == nullptr) continue;
-      const FilmFeatures& more = *other.features_at(x, y);
-      features->albedo += more.albedo;
-      features->normal += more.normal;
-      features->depth += more.depth;
+      const FilmFeatures& added = *other.features_at(x, y);
+      features->albedo += added.albedo;
+      features->normal += added.normal;
+      features->depth += added.depth;
     }
 }
 

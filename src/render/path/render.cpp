@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <atomic>
-#include <chrono>
 #include <iterator>
 #include <mutex>
 #include <numeric>
@@ -10,39 +9,35 @@
 #include <utility>
 #include <vector>
 
+#include "base/stopwatch.hpp"
+
 namespace pah {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 // Reports progress to the caller about ten times a second, from any thread.
 class Reporter {
  public:
-  Reporter(const RenderOptions& options, Clock::time_point start, double total_samples)
-      : options_(options), start_(start), total_samples_(total_samples) {}
+  Reporter(const RenderOptions& options, const Stopwatch& elapsed, double total_samples)
+      : options_(options), elapsed_(elapsed), total_samples_(total_samples) {}
 
   void tile_done(std::uint64_t samples, std::uint64_t rays, int finished) {
     samples_ += samples;
     rays_ += rays;
     if (!options_.on_progress) return;
     const std::unique_lock lock(mutex_, std::try_to_lock);
-    const double now = seconds_since(start_);
+    const double now = elapsed_.seconds();
     if (!lock.owns_lock() || now - last_ < 0.1) return;
     last_ = now;
     report(now, finished);
   }
 
   void pass_done(int finished) {
-    if (options_.on_progress) report(seconds_since(start_), finished);
+    if (options_.on_progress) report(elapsed_.seconds(), finished);
   }
 
   void between_passes(const Film& film, const FilmSamples& held) const {
     if (options_.on_pass)
-      options_.on_pass(film, held, progress(seconds_since(start_), held.to - held.from));
+      options_.on_pass(film, held, progress(elapsed_.seconds(), held.to - held.from));
   }
 
  private:
@@ -52,7 +47,7 @@ class Reporter {
   void report(double now, int finished) { options_.on_progress(progress(now, finished)); }
 
   const RenderOptions& options_;
-  Clock::time_point start_;
+  const Stopwatch& elapsed_;
   double total_samples_;
   std::atomic<std::uint64_t> samples_ = 0, rays_ = 0;
   std::mutex mutex_;
@@ -94,7 +89,7 @@ void leave_behind(std::span<const std::size_t> tiles, std::span<const std::size_
 RenderResult render(const World& world, const Accelerator& accelerator, const FilmSettings& film,
                     const RenderSettings& settings, const RenderOptions& options,
                     StartedFilm started) {
-  const Clock::time_point start = Clock::now();
+  const Stopwatch elapsed;
   RenderSession session(world, accelerator, film, settings,
                         {options.threads, options.count_traversal});
   const std::span<const PixelRect> tiles = session.tiles();
@@ -108,7 +103,7 @@ RenderResult render(const World& world, const Accelerator& accelerator, const Fi
   std::vector<std::size_t> all(tiles.size());
   std::iota(all.begin(), all.end(), std::size_t{0});
   const int first = started.samples.to;
-  Reporter reporter(options, start,
+  Reporter reporter(options, elapsed,
                     static_cast<double>(session.film().pixels.size()) *
                         static_cast<double>(settings.samples - first));
   const auto stopped = [&] { return options.stop != nullptr && options.stop->load(); };
@@ -119,8 +114,7 @@ RenderResult render(const World& world, const Accelerator& accelerator, const Fi
   result.samples = held.to - held.from;
   // Time is never up before every pixel has a sample, because a picture with holes is useless.
   const auto out_of_time = [&] {
-    return options.time_limit > 0 && result.samples > 0 &&
-           seconds_since(start) >= options.time_limit;
+    return options.time_limit > 0 && result.samples > 0 && elapsed.seconds() >= options.time_limit;
   };
   std::atomic<bool> stop_pass = false;
   double in_passes = 0;  // seconds
@@ -129,9 +123,9 @@ RenderResult render(const World& world, const Accelerator& accelerator, const Fi
     const std::span<const std::size_t> todo = goes_on ? held.behind : all;
     const int count = goes_on ? held.ahead
                               : next_pass(held.to - first, settings.samples - first,
-                                          {seconds_since(start), in_passes}, options);
+                                          {elapsed.seconds(), in_passes}, options);
     if (count == 0) break;
-    const Clock::time_point pass_start = Clock::now();
+    const Stopwatch pass;
     const auto tile_done = [&](const FinishedTile& tile) {
       const PixelRect& rect = tiles[tile.index];
       show(rect);
@@ -146,7 +140,7 @@ RenderResult render(const World& world, const Accelerator& accelerator, const Fi
       if (!finished.empty()) leave_behind(todo, finished, count, held);
       break;
     }
-    in_passes += seconds_since(pass_start);
+    in_passes += pass.seconds();
     held = {held.from, held.to + count, 0, {}};
     result.samples += count;
     reporter.pass_done(result.samples);
@@ -155,7 +149,7 @@ RenderResult render(const World& world, const Accelerator& accelerator, const Fi
   result.counts = session.counts();
   result.film = std::move(session).take_film();
   result.complete = held.to == settings.samples;
-  result.seconds = seconds_since(start);
+  result.seconds = elapsed.seconds();
   return result;
 }
 

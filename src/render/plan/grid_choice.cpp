@@ -1,13 +1,13 @@
 #include "render/plan/grid_choice.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <functional>
 #include <limits>
 #include <numeric>
 #include <pah/bvh/build_config.hpp>
 
 #include "base/parallel_for.hpp"
+#include "base/stopwatch.hpp"
 #include "render/bsdf/material_eval.hpp"
 #include "render/plan/pilot.hpp"
 
@@ -16,14 +16,13 @@ namespace {
 
 // The minimum time per ray on one thread, over some rounds.
 double seconds_a_ray(const Accelerator& accelerator, const std::vector<Ray>& rays) {
-  using Clock = std::chrono::steady_clock;
   constexpr int rounds = 3;
   std::vector<std::uint8_t> occluded(rays.size());
   double least = std::numeric_limits<double>::infinity();
   for (int round = 0; round < rounds; ++round) {
-    const Clock::time_point start = Clock::now();
+    const Stopwatch elapsed;
     accelerator.occluded(rays, occluded);
-    least = std::min(least, std::chrono::duration<double>(Clock::now() - start).count());
+    least = std::min(least, elapsed.seconds());
   }
   return least / static_cast<double>(rays.size());
 }

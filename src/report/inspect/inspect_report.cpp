@@ -36,7 +36,7 @@ std::string levels_text(const TreeSummary& tree, const std::optional<SeenOverlap
     text += fmt::format("  {:5} {:10} {:10}", depth, level.nodes, level.leaves);
     if (level.nodes > level.leaves) text += fmt::format("  {:5.1f} %", 100 * level.overlap);
     if (seen && level.nodes > level.leaves)
-      text += fmt::format("  {:24.1f} %", 100 * seen->levels[depth]);
+      text += fmt::format("  {:23.1f} %", 100 * seen->levels[depth]);
     text += '\n';
   }
   return text;
@@ -54,10 +54,11 @@ std::string bvh_text(const BvhReport& bvh) {
   line("depth of leaves", fmt::format("mean {:.1f}, at most {}", tree.mean_depth, tree.max_depth));
   if (tree.balance.nodes > 0)
     line("balance",
-         fmt::format("the smaller child has {:.0f} % of the triangles on average, and less than "
-                     "{:.0f} % in {:.1f} % of the large nodes",
-                     100 * tree.balance.smaller_share, 100 * TreeBalance::lopsided_below,
-                     100 * tree.balance.lopsided));
+         fmt::format(
+             "smaller child: {:.0f} % of the triangles on average; below {:g} % in {:.1f} % of "
+             "the large nodes",
+             100 * tree.balance.smaller_share, 100 * TreeBalance::lopsided_below,
+             100 * tree.balance.lopsided));
   line("expected cost",
        bvh.bundle ? fmt::format("{:.2f} for the area's rays that meet the root, {:.2f} by SAH",
                                 bvh.expected_cost, bvh.surface_cost)
@@ -79,9 +80,9 @@ std::string bvh_text(const BvhReport& bvh) {
   if (const auto& rays = bvh.camera_rays) {
     line("camera rays",
          fmt::format("{}, of which {:.1f} % hit", rays->rays, 100 * hit_share(*rays)));
-    line("  nodes visited",
+    line("  node visits",
          fmt::format("mean {:.2f}, at most {}", rays->nodes_per_ray, rays->max_nodes));
-    line("  triangles tested",
+    line("  triangle tests",
          fmt::format("mean {:.2f}, at most {}", rays->triangles_per_ray, rays->max_triangles));
   }
   line("memory", format_bytes(bvh.memory_bytes));

@@ -22,8 +22,8 @@ namespace {
 
 const char* const checkpoint = "out.exr.film";
 
-Words operator+(Words words, const Words& more) {
-  words.insert(words.end(), more.begin(), more.end());
+Words operator+(Words words, const Words& suffix) {
+  words.insert(words.end(), suffix.begin(), suffix.end());
   return words;
 }
 

@@ -111,10 +111,10 @@ TEST_CASE("Frames of other settings are rendered again") {
     REQUIRE(run(words).exit_code == 0);
     return !contains(outcome.err, "wrote");
   };
-  const auto with = [&](const Words& more) {
-    Words all = words;
-    all.insert(all.end(), more.begin(), more.end());
-    return all;
+  const auto with = [&](const Words& options) {
+    Words extended = words;
+    extended.insert(extended.end(), options.begin(), options.end());
+    return extended;
   };
   CHECK(is_kept(with({"--threads", "1", "--accel", "bvh"})));
   CHECK_FALSE(is_kept(replaced(words, "4", "5")));    // samples

@@ -284,9 +284,9 @@ TEST_CASE("A declared influence area is built and measured, and left out by --ac
                                "influence_areas: [auto, {type: point, light: bulb, fov: [120, 120],"
                                " far: 4}]\n"
                                "acceleration: {heuristic: pah, split_axis: facing}\n");
-  const auto stats_of = [](const Words& more) {
+  const auto stats_of = [](const Words& options) {
     Words words{"scene.yaml", "-o", "out.exr", "--stats", "stats.json"};
-    words.insert(words.end(), more.begin(), more.end());
+    words.insert(words.end(), options.begin(), options.end());
     render(words);
     return read_json("stats.json");
   };

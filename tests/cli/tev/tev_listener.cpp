@@ -15,8 +15,8 @@ namespace {
 
 constexpr int look_milliseconds = 10;
 
-void require(bool condition, const std::string& what) {
-  if (!condition) throw std::runtime_error(what);
+void require(bool condition, const std::string& message) {
+  if (!condition) throw std::runtime_error(message);
 }
 
 // Reads the values of a packet one after the other.
