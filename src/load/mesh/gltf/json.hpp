@@ -16,8 +16,8 @@ using Json = nlohmann::json;
 // Returns the object under a key; empty if the key is absent.
 [[nodiscard]] const Json& child(const Json& object, const char* key);
 
-// A count or an offset; `otherwise` if the key is missing.
-[[nodiscard]] std::uint64_t number(const Json& object, const char* key, std::uint64_t otherwise);
+// A count or an offset; `fallback` if the key is missing.
+[[nodiscard]] std::uint64_t number(const Json& object, const char* key, std::uint64_t fallback);
 
 // Returns an index in a list of `size`.
 [[nodiscard]] std::size_t index_of(const Json& object, const char* key, std::size_t size);
