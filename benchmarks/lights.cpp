@@ -71,8 +71,9 @@ void measure(benchmark::State& state, const std::vector<Draw>& all, const DrawOn
 void measure_sample(benchmark::State& state, const Light& light) {
   const World world = world_with(light);
   const Lights lights(world, TextureStore(world.textures));
-  measure(state, draws(world, room),
-          [&](const Draw& draw) { return lights.sample(0, draw.at, {draw.u, draw.u2}); });
+  measure(state, draws(world, room), [&](const Draw& draw) {
+    return lights.sample(0, draw.at, {draw.u, draw.u2});
+  });
 }
 
 void measure_choice(benchmark::State& state, const std::string& scene_file) {
