@@ -145,7 +145,7 @@ TEST_CASE("A spot's frustum holds every segment that leads to it within its cone
   }
 }
 
-TEST_CASE("A sun's box holds the scene, and none is derived for one with an angle") {
+TEST_CASE("A sun's box holds the scene, and a sun with an angle derives no box") {
   for (const DVec3& direction : {DVec3(0, -1, 0), DVec3(-1, -2, -1), DVec3(5, 0, 0)}) {
     Scene scene = scene_about(DVec3(3, -5, 1e5));
     scene.lights.push_back({"sun", DirectionalLight{direction, Vec3(1), 0}});

@@ -22,7 +22,7 @@ struct LightSample {
   Vec2 barycentrics{0};
 };
 
-// The two random numbers of a light: one for a discrete choice, two for a position or direction.
+// The random numbers of a light sample: one for a discrete choice, two for a position or direction.
 struct LightNumbers {
   float choice = 0;
   Vec2 point{0};
